@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
-constexpr double kPromise = 4;        // what steps to come may gain, in gains of the next one
+constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
 constexpr int kMaxShorter = 6;        // of a step
 constexpr double kLongestStep = 0.5;  // of t
 constexpr double kMinGain = 1e-12;    // of the volume: a lesser decrease is none
@@ -99,8 +99,12 @@ class ChordDescent::Work {
 
   LeastChord descend(const Vec3& x, const LeastChord& start, const DescentBound& bound) {
     x_ = x;
-    LeastChord least = go_down(start, bound);
-    if (!(least.erosion < bound.erosion * (1 - kLastGain))) return {};
+    const LeastChord least = go_down(start, bound);
+    return least.erosion < bound.erosion * (1 - kLastGain) ? least : LeastChord{};
+  }
+
+  LeastChord look_across(const Vec3& x, LeastChord least) {
+    x_ = x;
     while (true) {
       const LeastChord lower = across(least);
       if (!(lower.erosion < least.erosion * (1 - kLastGain))) return least;
@@ -134,7 +138,7 @@ class ChordDescent::Work {
     piece_.hessian = finder_.hessian();
     for (int n = 0; n < kMaxSteps; ++n) {
       const Step step = next_step();
-      if (piece_.volume - kPromise * step.gain > bound.erosion) return {};
+      if (piece_.volume - bound.promise * step.gain > bound.erosion) return {};
       if (!(step.gain > kMinGain * piece_.volume) || !go(step)) break;
       if (step.gain < kLastGain * piece_.volume) break;
     }
@@ -155,14 +159,14 @@ class ChordDescent::Work {
       const Vec3 y = from_x(least.saddles[i]);
       const Vec3 d = touching(least.normal - (kAcross / core::dot(y, y)) * y);
       const double none = std::numeric_limits<double>::infinity();
-      if (core::dot(d, y) < -kTouchHeight) keep(go_down(d, {none, best.erosion}));
+      if (core::dot(d, y) < -kTouchHeight) keep(go_down(d, {none, best.erosion, kAcrossPromise}));
     }
     const std::vector<SaddleSearch::Saddle> others = saddles_.just_below(x_, least.normal);
     for (const SaddleSearch::Saddle& saddle : others) {
       LeastChord start;
       start.normal = least.normal;
       start.saddles[0] = saddle.vertex;
-      keep(go_down(start, {kWorthwhile * best.erosion, best.erosion}));
+      keep(go_down(start, {kWorthwhile * best.erosion, best.erosion, kAcrossPromise}));
     }
     return best;
   }
@@ -369,6 +373,10 @@ ChordDescent::~ChordDescent() = default;
 
 LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start, const DescentBound& bound) {
   return work_->descend(x, start, bound);
+}
+
+LeastChord ChordDescent::look_across(const Vec3& x, LeastChord least) {
+  return work_->look_across(x, least);
 }
 
 std::uint64_t ChordDescent::evaluations() const {

@@ -45,36 +45,56 @@ struct PieceInput {
   struct Shell {
     std::uint32_t root = 0;   ///< its first vertex
     std::uint32_t solid = 0;  ///< the solid it bounds; the least one of those that pass through each other
-    /// Two for every handle: with them the tree's edges cut the shell into a disc (tree-cotree, Eppstein 2003).
+    /// Two edges for every handle: with them the tree's edges cut the shell into a disc (tree-cotree, Eppstein
+    /// 2003).
     std::vector<Segment> handles;
   };
 
   explicit PieceInput(const Solid& solid, unsigned threads = 1);
+
+  std::uint32_t begin_of(std::uint32_t half_edge) const {
+    return mesh.triangles[half_edge / 3][half_edge % 3];
+  }
+  std::uint32_t end_of(std::uint32_t half_edge) const {
+    return mesh.triangles[half_edge / 3][(half_edge + 1) % 3];
+  }
   PieceInput(const PieceInput&) = delete;
   PieceInput& operator=(const PieceInput&) = delete;
 
-  /// Sums over the triangles whose first corner is below `vertex` in the tree, or is `vertex` itself.
-  SurfaceSums below(std::uint32_t vertex) const {
-    SurfaceSums sums = before[end[vertex]];
-    return sums -= before[vertex];
-  }
+  struct Face {
+    Vec3 area;  ///< outward
+    SurfaceSums sums;
+  };
 
-  Mesh mesh;                            ///< the solid's, numbered anew
-  std::vector<std::uint32_t> mates;     ///< per half-edge 3 t + i
-  std::vector<Vec3> area_vector;        ///< per triangle, outward
-  std::vector<SurfaceSums> own;         ///< per triangle
-  std::vector<std::uint32_t> parent;    ///< per vertex; of a root itself
-  std::vector<std::uint32_t> end;       ///< per vertex
-  std::vector<SurfaceSums> before;      ///< per vertex, and one more: over the triangles of those before it
+  /// How the rim of a section goes on where it passes a half-edge, which rises from below the plane, into the
+  /// triangle beyond.
+  struct Passage {
+    std::uint32_t apex = 0;        ///< the corner that is not on the edge
+    std::uint32_t when_above = 0;  ///< the half-edge that it leaves by when the apex is above the plane
+    std::uint32_t when_below = 0;
+    std::uint32_t edge = kNone;  ///< its number among `edges`
+  };
+
+  Mesh mesh;                       ///< the solid's, numbered anew
+  std::vector<Passage> passages;   ///< per half-edge 3 t + i
+  std::vector<Face> faces;         ///< per triangle
+  std::vector<std::uint32_t> end;  ///< per vertex
+  /// Per vertex: sums over the triangles whose first corner is below it in the tree, or is the vertex itself.
+  std::vector<SurfaceSums> below;
+  /// The half-edge from a vertex to its parent and the one back, by vertices, of roots none; then those of
+  /// Shell::handles.
+  std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::uint32_t> shell_of;  ///< per vertex
   std::vector<Shell> shells;
-  std::vector<std::uint8_t> at_handle;  ///< per half-edge: of an edge of Shell::handles; empty without any
-  FourTree tree;                        ///< over the triangles, which are numbered in its order
-  Groups<std::uint32_t> rings;          ///< per vertex: its neighbours, in their order round it
-  std::vector<std::uint32_t> owner;     ///< per vertex: a triangle of its
+  FourTree edge_tree;             ///< over `edges`; a root is by itself
+  /// Vertices at which parts of a piece may meet: where the surface is not convex, nor the outside.
+  std::vector<std::uint32_t> saddles;
+  FourTree saddle_tree;           ///< over `saddles`
+  Groups<std::uint32_t> rings;    ///< per vertex: its neighbours, in their order round it
   /// Pairs of triangles that pass through each other.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<std::uint8_t> crosses;  ///< per vertex: at such a triangle; empty where there is none
+  bool is_ball = false;  ///< one shell without handles that does not pass through itself
   double volume = 0;                  ///< of all solids, scaled units
   std::optional<RayShooter> rays;     ///< only where a solid has several shells
 
@@ -83,7 +103,13 @@ struct PieceInput {
   void add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number);
   void sum_up();
   void find_handles();
+  void find_passages();
   void find_rings();
+  void find_saddles();
+  bool is_convex(std::uint32_t vertex) const;
+
+  std::vector<std::uint32_t> mates_;   // per half-edge; until the others are made
+  std::vector<std::uint32_t> parent_;  // per vertex, of a root itself; likewise
 };
 
 }  // namespace affskel::core

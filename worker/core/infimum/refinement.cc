@@ -20,6 +20,8 @@ constexpr double kPromised = 1.2;    // at most so many times what is known
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
 constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
+constexpr double kSeedHope = 1.3;
+constexpr double kOfferPromise = 1;
 constexpr double kLess = 1e-10;      // by which a piece must be less to take the place of another
 
 }  // namespace
@@ -30,7 +32,8 @@ Refinement::Refinement(const PieceInput& input, const Lattice& lattice, unsigned
       threads_(threads),
       around_(lattice.points),
       least_(lattice.points),
-      round_(lattice.points, 0) {
+      round_(lattice.points, 0),
+      first_(lattice.points, 0) {
   std::vector<std::uint32_t> all(lattice.points);
   std::iota(all.begin(), all.end(), 0U);
   places_ = lattice_places(lattice, all);
@@ -39,6 +42,7 @@ Refinement::Refinement(const PieceInput& input, const Lattice& lattice, unsigned
     around_[x][2 * axis] = y;
     around_[y][2 * axis + 1] = x;
   });
+  find_first_rounds();
 }
 
 std::uint64_t Refinement::evaluations() const {
@@ -57,9 +61,7 @@ std::vector<RefinedPoint> Refinement::descend(const DirectionSet& directions, co
     start.normal = directions[seed.direction];
     start.erosion = seed.erosion;
     start.area = start.slope = seed.area;
-    LeastChord least = descent.descend(at(p), start);
-    if (!(least.erosion <= start.erosion * (1 + kSeedRounding))) least = start;
-    found[i] = {p, least};
+    found[i] = {p, first_[p] == 0 ? from_seed(p, start, descent) : start};
   });
   return found;
 }
@@ -70,7 +72,9 @@ std::vector<RefinedPoint> Refinement::improve(int round, PointRange range, Execu
   each_of(todo.size(), context, [&](std::size_t i, ChordDescent& descent) {
     found[i] = {todo[i], least_of_offers(round, todo[i], descent)};
   });
-  std::erase_if(found, [&](const RefinedPoint& f) { return !(f.least.erosion < least_[f.point].erosion); });
+  std::erase_if(found, [&](const RefinedPoint& f) {
+    return first_[f.point] < round && !(f.least.erosion < least_[f.point].erosion);
+  });
   return found;
 }
 
@@ -91,34 +95,94 @@ void Refinement::each_of(std::size_t count, ExecutionContext& context, const Bod
   });
 }
 
-// The points with a neighbour that the round before changed.
+// A point begins in the round after the last of the neighbours that have fewer odd indices.
+void Refinement::find_first_rounds() {
+  const auto odd = [&](std::uint32_t p) { return (places_[p][0] & 1U) + (places_[p][1] & 1U) + (places_[p][2] & 1U); };
+  for (unsigned odds = 1; odds <= 3; ++odds) {
+    for (std::uint32_t p = 0; p < around_.size(); ++p) {
+      if (odd(p) != odds) continue;
+      for (const std::uint32_t q : around_[p]) {
+        if (q != kNobody && odd(q) < odds) first_[p] = std::max<std::uint8_t>(first_[p], first_[q] + 1);
+      }
+    }
+  }
+}
+
+// Whether the point has yet to hear of what the neighbour has.
+bool Refinement::offers(std::uint32_t q, std::uint32_t p, int round) const {
+  return q != kNobody && first_[q] < round && (first_[p] == round || round_[q] + 1 == round);
+}
+
 std::vector<std::uint32_t> Refinement::offered(int round, PointRange range) const {
   std::vector<std::uint32_t> todo;
   for (std::uint32_t p = range.begin; p < range.end; ++p) {
+    if (first_[p] > round) continue;
     const bool any = std::any_of(around_[p].begin(), around_[p].end(),
-                                 [&](std::uint32_t q) { return q != kNobody && round_[q] + 1 == round; });
-    if (any) todo.push_back(p);
+                                 [&](std::uint32_t q) { return offers(q, p, round); });
+    if (any || first_[p] == round) todo.push_back(p);
   }
   return todo;
 }
 
+LeastChord Refinement::from_seed(std::uint32_t p, const LeastChord& seed, ChordDescent& descent) const {
+  const Vec3 x = at(p);
+  const LeastChord least = descent.look_across(x, descent.descend(x, seed));
+  return least.erosion <= seed.erosion * (1 + kSeedRounding) ? least : seed;
+}
+
+namespace {
+
+bool alike(const LeastChord& a, const LeastChord& b) {
+  return dot(a.normal, b.normal) > kAlike;
+}
+
+}
+
 LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent& descent) const {
   const Vec3 x = at(p);
-  LeastChord best = least_[p];
-  std::array<const LeastChord*, 7> tried{&least_[p]};
-  std::size_t tries = 1;
-  for (const std::uint32_t q : around_[p]) {
-    if (q == kNobody || round_[q] + 1 != round) continue;
-    const LeastChord& offer = least_[q];
-    const double promise = offer.erosion + offer.slope * dot(offer.normal, x - at(q));
-    const bool less = promise < kNoBetter * best.erosion;
+  const bool first = first_[p] == round;
+  LeastChord best = least_[p];  // of a point that begins the seed
+  std::array<LeastChord, 6> starts;  // their erosion what they promise
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::uint32_t q = around_[p][i];
+    if (!offers(q, p, round)) continue;
+    LeastChord& start = starts[count++];
+    start = least_[q];
+    start.erosion += start.slope * dot(start.normal, x - at(q));
+    const std::uint32_t r = around_[p][i ^ 1];
+    if (!offers(r, p, round) || least_[r].saddles != start.saddles || !alike(least_[r], start)) continue;
+    const LeastChord& other = least_[r];
+    start.normal = start.normal + other.normal;
+    start.normal = (1 / norm(start.normal)) * start.normal;
+    start.erosion = 0.5 * (start.erosion + other.erosion + other.slope * dot(other.normal, x - at(r)));
+    if (i % 2 == 0) ++i;
+  }
+  std::stable_sort(starts.begin(), starts.begin() + count,
+                   [](const LeastChord& a, const LeastChord& b) { return a.erosion < b.erosion; });
+  bool followed = !first;
+  std::array<const LeastChord*, 7> tried{};
+  std::size_t tries = 0;
+  if (!first) tried[tries++] = &least_[p];
+  for (std::size_t i = 0; i < count; ++i) {
+    const LeastChord& start = starts[i];
+    const bool less = start.erosion < kNoBetter * best.erosion;
     const bool known = std::any_of(tried.begin(), tried.begin() + tries, [&](const LeastChord* other) {
-      return (!less || other->saddles == offer.saddles) && dot(other->normal, offer.normal) > kAlike;
+      return (!less || other->saddles == start.saddles) && alike(*other, start);
     });
-    if (known || promise > kPromised * best.erosion) continue;
-    tried[tries++] = &offer;
-    const LeastChord found = descent.descend(x, offer, {kFirst * best.erosion, best.erosion});
-    if (found.erosion < best.erosion * (1 - kLess)) best = found;
+    if (known || start.erosion > kPromised * best.erosion) continue;
+    tried[tries++] = &start;
+    const LeastChord found = descent.descend(x, start, {kFirst * best.erosion, best.erosion * (first && !followed ? 1 + kSeedRounding : 1), first ? 4.0 : kOfferPromise});
+    if (!(found.erosion < best.erosion * (1 - kLess))) continue;
+    best = found;
+    best = descent.look_across(x,best); if (first) followed = true;
+  }
+  if (!first) return best;
+  const LeastChord& seed = least_[p];
+  const bool seed_known = followed && alike(best, seed);
+  if (!seed_known && seed.erosion < kSeedHope * best.erosion) {
+    const LeastChord own = from_seed(p, seed, descent);
+    if (own.erosion < best.erosion) best = own;
   }
   return best;
 }

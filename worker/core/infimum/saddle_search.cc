@@ -22,12 +22,7 @@ SaddleSearch::SaddleSearch(const PieceInput& input)
 
 template <class Meets, class Visit>
 void SaddleSearch::visit_vertices(Meets meets, Visit visit) {
-  in_.tree.select(meets, near_);
-  for (const std::uint32_t t : near_) {
-    for (const std::uint32_t v : in_.mesh.triangles[t]) {
-      if (in_.owner[v] == t) visit(v);
-    }
-  }
+  for (const std::uint32_t i : in_.saddle_tree.select(meets, lists_)) visit(in_.saddles[i]);
 }
 
 const std::vector<SaddleSearch::Saddle>& SaddleSearch::sinking(const Vec3& x, const Vec3& d, const Vec3& end,

@@ -42,7 +42,7 @@ class SaddleSearch {
   const PieceInput& in_;
   double furthest_;  // tilt that just_below() looks at
   Vec3 x_;
-  std::vector<std::uint32_t> near_;  // triangles
+  FourTree::Lists lists_;
   std::vector<Saddle> found_;
 };
 
