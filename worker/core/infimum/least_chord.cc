@@ -163,12 +163,39 @@ class ChordDescent::Work {
     }
     const std::vector<SaddleSearch::Saddle> others = saddles_.just_below(x_, least.normal);
     for (const SaddleSearch::Saddle& saddle : others) {
-      LeastChord start;
-      start.normal = least.normal;
-      start.saddles[0] = saddle.vertex;
-      keep(go_down(start, {kWorthwhile * best.erosion, best.erosion, kAcrossPromise}));
+      const Vec3 d = touch_beside(saddle.vertex, least);
+      keep(go_down(d, {kWorthwhile * best.erosion, best.erosion, kAcrossPromise}));
     }
     return best;
+  }
+
+  // The plane nearest to a least one that touches a saddle and lies above none of those that are held there: it
+  // touches one of them, too, where it must.
+  Vec3 touch_beside(std::uint32_t saddle, const LeastChord& least) {
+    active_.assign(1, saddle);
+    Vec3 best = touching(least.normal);
+    if (holds(best, least)) return best;
+    double nearest = -1;
+    std::uint32_t second = kNoSaddle;
+    for (const std::uint32_t held : least.saddles) {
+      if (held == kNoSaddle) continue;
+      active_ = {saddle, held};
+      const Vec3 d = touching(least.normal);
+      const double cosine = core::dot(d, least.normal);
+      if (cosine <= nearest || !holds(d, least)) continue;
+      nearest = cosine;
+      best = d;
+      second = held;
+    }
+    active_.assign(1, saddle);
+    if (second != kNoSaddle) active_.push_back(second);
+    return best;
+  }
+
+  bool holds(const Vec3& d, const LeastChord& least) const {
+    return std::all_of(least.saddles.begin(), least.saddles.end(), [&](std::uint32_t s) {
+      return s == kNoSaddle || core::dot(d, from_x(s)) >= -kTouchHeight;
+    });
   }
 
   LeastChord result(double slope) const {

@@ -16,7 +16,7 @@ constexpr std::size_t kBlock = 64;  // points that a thread takes at once
 constexpr double kSeedRounding = 1e-9;  // seeds have 36 bits
 
 // When a neighbour's plane is worth a descent, by the volume E + |grad E| n.(x - y) that it promises at x.
-constexpr double kPromised = 1.2;    // at most so many times what is known
+constexpr double kPromised = 1.05;    // at most so many times what is known
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
 constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
