@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/unit.h"
 #include "core/lattice/lattice_edges.h"
 
 namespace affskel::core {
@@ -22,7 +23,12 @@ constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
 constexpr double kSeedHope = 1.3;
 constexpr double kOfferPromise = 1;
+constexpr double kFollowPromise = 4;
 constexpr double kLess = 1e-10;      // by which a piece must be less to take the place of another
+
+bool alike(const LeastChord& a, const LeastChord& b) {
+  return dot(a.normal, b.normal) > kAlike;
+}
 
 }  // namespace
 
@@ -109,7 +115,7 @@ void Refinement::find_first_rounds() {
 }
 
 // Whether the point has yet to hear of what the neighbour has.
-bool Refinement::offers(std::uint32_t q, std::uint32_t p, int round) const {
+bool Refinement::offers_to(std::uint32_t q, std::uint32_t p, int round) const {
   return q != kNobody && first_[q] < round && (first_[p] == round || round_[q] + 1 == round);
 }
 
@@ -118,73 +124,77 @@ std::vector<std::uint32_t> Refinement::offered(int round, PointRange range) cons
   for (std::uint32_t p = range.begin; p < range.end; ++p) {
     if (first_[p] > round) continue;
     const bool any = std::any_of(around_[p].begin(), around_[p].end(),
-                                 [&](std::uint32_t q) { return offers(q, p, round); });
+                                 [&](std::uint32_t q) { return offers_to(q, p, round); });
     if (any || first_[p] == round) todo.push_back(p);
   }
   return todo;
 }
 
+// A point that begins, begins with its seed.
 LeastChord Refinement::from_seed(std::uint32_t p, const LeastChord& seed, ChordDescent& descent) const {
   const Vec3 x = at(p);
-  const LeastChord least = descent.look_across(x, descent.descend(x, seed));
-  return least.erosion <= seed.erosion * (1 + kSeedRounding) ? least : seed;
+  const LeastChord least = descent.descend(x, seed);
+  return least.erosion <= seed.erosion * (1 + kSeedRounding) ? descent.look_across(x, least) : seed;
 }
 
-namespace {
-
-bool alike(const LeastChord& a, const LeastChord& b) {
-  return dot(a.normal, b.normal) > kAlike;
-}
-
+// What the neighbours offer, their erosion what they promise, the least first.  Two opposite ones of one basin
+// offer one plane.
+std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<LeastChord, 6>& offers) const {
+  const Vec3 x = at(p);
+  const auto promised = [&](std::uint32_t q) {
+    return least_[q].erosion + least_[q].slope * dot(least_[q].normal, x - at(q));
+  };
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::uint32_t q = around_[p][i], opposite = around_[p][i ^ 1U];
+    if (!offers_to(q, p, round)) continue;
+    LeastChord& offer = offers[count++];
+    offer = least_[q];
+    offer.erosion = promised(q);
+    if (!offers_to(opposite, p, round) || least_[opposite].saddles != offer.saddles ||
+        !alike(least_[opposite], offer))
+      continue;
+    offer.normal = unit(offer.normal + least_[opposite].normal);
+    offer.erosion = 0.5 * (offer.erosion + promised(opposite));
+    i |= 1U;
+  }
+  std::stable_sort(offers.begin(), offers.begin() + static_cast<std::ptrdiff_t>(count),
+                   [](const LeastChord& a, const LeastChord& b) { return a.erosion < b.erosion; });
+  return count;
 }
 
 LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent& descent) const {
   const Vec3 x = at(p);
-  const bool first = first_[p] == round;
-  LeastChord best = least_[p];  // of a point that begins the seed
-  std::array<LeastChord, 6> starts;  // their erosion what they promise
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const std::uint32_t q = around_[p][i];
-    if (!offers(q, p, round)) continue;
-    LeastChord& start = starts[count++];
-    start = least_[q];
-    start.erosion += start.slope * dot(start.normal, x - at(q));
-    const std::uint32_t r = around_[p][i ^ 1];
-    if (!offers(r, p, round) || least_[r].saddles != start.saddles || !alike(least_[r], start)) continue;
-    const LeastChord& other = least_[r];
-    start.normal = start.normal + other.normal;
-    start.normal = (1 / norm(start.normal)) * start.normal;
-    start.erosion = 0.5 * (start.erosion + other.erosion + other.slope * dot(other.normal, x - at(r)));
-    if (i % 2 == 0) ++i;
-  }
-  std::stable_sort(starts.begin(), starts.begin() + count,
-                   [](const LeastChord& a, const LeastChord& b) { return a.erosion < b.erosion; });
-  bool followed = !first;
-  std::array<const LeastChord*, 7> tried{};
-  std::size_t tries = 0;
-  if (!first) tried[tries++] = &least_[p];
+  const LeastChord& start = least_[p];
+  const bool begins = first_[p] == round;
+  LeastChord best = start;
+  bool lower = false;
+  std::array<LeastChord, 6> offers;
+  const std::size_t count = list_offers(round, p, offers);
+  std::array<const LeastChord*, 7> tried{&start};
+  std::size_t tries = begins ? 0 : 1;
   for (std::size_t i = 0; i < count; ++i) {
-    const LeastChord& start = starts[i];
-    const bool less = start.erosion < kNoBetter * best.erosion;
+    const LeastChord& offer = offers[i];
+    const bool less = offer.erosion < kNoBetter * best.erosion;
     const bool known = std::any_of(tried.begin(), tried.begin() + tries, [&](const LeastChord* other) {
-      return (!less || other->saddles == start.saddles) && alike(*other, start);
+      return (!less || other->saddles == offer.saddles) && alike(*other, offer);
     });
-    if (known || start.erosion > kPromised * best.erosion) continue;
-    tried[tries++] = &start;
-    const LeastChord found = descent.descend(x, start, {kFirst * best.erosion, best.erosion * (first && !followed ? 1 + kSeedRounding : 1), first ? 4.0 : kOfferPromise});
+    if (known || offer.erosion > kPromised * best.erosion) continue;
+    tried[tries++] = &offer;
+    const LeastChord found = descent.descend(
+        x, offer, {kFirst * best.erosion, best.erosion, begins ? kFollowPromise : kOfferPromise});
     if (!(found.erosion < best.erosion * (1 - kLess))) continue;
     best = found;
-    best = descent.look_across(x,best); if (first) followed = true;
+    lower = true;
   }
-  if (!first) return best;
-  const LeastChord& seed = least_[p];
-  const bool seed_known = followed && alike(best, seed);
-  if (!seed_known && seed.erosion < kSeedHope * best.erosion) {
-    const LeastChord own = from_seed(p, seed, descent);
-    if (own.erosion < best.erosion) best = own;
+  if (begins && !(lower && alike(best, start)) && start.erosion < kSeedHope * best.erosion) {
+    const LeastChord own = descent.descend(x, start, {kFirst * best.erosion, best.erosion * (lower ? 1 : 1 + kSeedRounding), kFollowPromise});
+    if (own.erosion <= best.erosion * (1 + kSeedRounding)) {
+      best = own;
+      lower = true;
+    }
   }
-  return best;
+  return lower ? descent.look_across(x, best) : best;
 }
 
 std::unique_ptr<ChordDescent> Refinement::borrow() {
