@@ -41,12 +41,6 @@ struct CutEdge {
   std::uint32_t outer = kNone;  // the innermost cut edge above it in the tree
 };
 
-// Not std::hypot, which may differ from machine to machine.
-double length(const PlanePoint& from, const PlanePoint& to) {
-  const double a = to.a - from.a, b = to.b - from.b;
-  return std::sqrt(a * a + b * b);
-}
-
 }  // namespace
 
 class PieceFinder::Work {
@@ -176,8 +170,8 @@ class PieceFinder::Work {
   void join_handles() {
     for (const SectionLoops::Edge& edge : section_.edges()) {
       if (!is_handle(edge)) continue;
-      const auto& [there, back] = in_.edges[edge.number];
-      classes_.unite(edge.loop, member_of(in_.begin_of(edge.begin_below ? there : back)));
+      const PieceInput::Edge& of_mesh = in_.edges[edge.number];
+      classes_.unite(edge.loop, member_of(edge.begin_below ? of_mesh.begin : of_mesh.end));
     }
     for (const std::uint32_t s : solid_shells_[solid_]) {
       for (const Segment& edge : in_.shells[s].handles) {
@@ -273,7 +267,7 @@ class PieceFinder::Work {
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
       const Cut& cut = section_.cuts()[i];
       const PlanePoint& to = cut.leaves;
-      const double weight = slope(cut.triangle()) * length(from, to) * kThird;
+      const double weight = kThird * spread(cut.triangle(), {to.a - from.a, to.b - from.b});
       sum[0] += weight * (from.a * from.a + from.a * to.a + to.a * to.a);
       sum[1] += weight * (from.a * from.b + 0.5 * (from.a * to.b + to.a * from.b) + to.a * to.b);
       sum[2] += weight * (from.b * from.b + from.b * to.b + to.b * to.b);
@@ -281,12 +275,16 @@ class PieceFinder::Work {
     }
   }
 
-  // How far the rim moves outwards in the plane when that rises by one.
-  double slope(std::uint32_t triangle) const {
+  // How far a stretch of the rim moves outwards in the plane when that rises by one, times its length.
+  double spread(std::uint32_t triangle, const PlanePoint& stretch) const {
     const Vec3& n = in_.faces[triangle].area;
     const double up = -dot(n, d_), a = dot(n, section_.u()), b = dot(n, section_.w());
-    const double across = std::sqrt(a * a + b * b);
-    return across * kSteepest > std::abs(up) ? up / across : up > 0 ? kSteepest : -kSteepest;
+    const double across = a * a + b * b;
+    if (across * (kSteepest * kSteepest) > up * up) {
+      // The stretch is a multiple of (-b, a).
+      return up * (a * stretch.b - b * stretch.a) / across;
+    }
+    return (up > 0 ? kSteepest : -kSteepest) * std::sqrt(stretch.a * stretch.a + stretch.b * stretch.b);
   }
 
   const PieceInput& in_;

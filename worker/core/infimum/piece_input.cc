@@ -169,14 +169,14 @@ void PieceInput::sum_up() {
 // the handles.
 void PieceInput::find_handles() {
   DisjointSets joined(mesh.triangles.size());
-  edges.assign(mesh.points.size(), {kNone, kNone});
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) edges.push_back({v, parent_[v], kNone, kNone});
   for (std::uint32_t h = 0; h < mates_.size(); ++h) {
     if (mates_[h] < h) continue;
     const std::uint32_t a = begin_of(h), b = end_of(h);
     if (parent_[a] == b || parent_[b] == a) continue;
     if (joined.unite(h / 3, mates_[h] / 3)) continue;
     shells[shell_of[a]].handles.push_back({a, b});
-    edges.push_back({h, mates_[h]});
+    edges.push_back({a, b, h, mates_[h]});
   }
 }
 
@@ -185,19 +185,17 @@ void PieceInput::find_passages() {
   for (std::uint32_t h = 0; h < mates_.size(); ++h) {
     const std::uint32_t back = mates_[h], t = back / 3, i = back % 3;
     passages[h] = {mesh.triangles[t][(i + 2) % 3], 3 * t + (i + 1) % 3, 3 * t + (i + 2) % 3, kNone};
-    const std::uint32_t child = begin_of(h);
-    if (parent_[child] == end_of(h)) edges[child] = {h, back};
+    Edge& to_parent = edges[begin_of(h)];
+    if (to_parent.end != end_of(h)) continue;
+    to_parent.there = h;
+    to_parent.back = back;
   }
   std::vector<Box> boxes(edges.size());
   for (std::uint32_t n = 0; n < edges.size(); ++n) {
-    if (edges[n][0] == kNone) {
-      boxes[n].include(mesh.points[n]);
-      continue;
-    }
-    for (const std::uint32_t h : edges[n]) {
-      passages[h].edge = n;
-      boxes[n].include(mesh.points[begin_of(h)]);
-    }
+    const Edge& edge = edges[n];
+    boxes[n].include(mesh.points[edge.begin]);
+    boxes[n].include(mesh.points[edge.end]);
+    if (edge.there != kNone) passages[edge.there].edge = passages[edge.back].edge = n;
   }
   edge_tree.build(boxes);
 }

@@ -81,9 +81,13 @@ struct PieceInput {
   std::vector<std::uint32_t> end;  ///< per vertex
   /// Per vertex: sums over the triangles whose first corner is below it in the tree, or is the vertex itself.
   std::vector<SurfaceSums> below;
-  /// The half-edge from a vertex to its parent and the one back, by vertices, of roots none; then those of
-  /// Shell::handles.
-  std::vector<std::array<std::uint32_t, 2>> edges;
+  struct Edge {
+    std::uint32_t begin = 0, end = 0;               ///< vertices
+    std::uint32_t there = kNone, back = kNone;  ///< its half-edges; of a root none
+  };
+
+  /// Those from a vertex to its parent, by vertices; then those of Shell::handles.
+  std::vector<Edge> edges;
   std::vector<std::uint32_t> shell_of;  ///< per vertex
   std::vector<Shell> shells;
   FourTree edge_tree;             ///< over `edges`; a root is by itself

@@ -36,10 +36,10 @@ void SectionLoops::cut(const Vec3& x, const Vec3& d) {
     return (middle <= reach) & (middle >= -reach);
   };
   for (const std::uint32_t n : in_.edge_tree.select(meets, lists_)) {
-    const auto& [there, back] = in_.edges[n];
-    if (passed_[n] == number_ || there == PieceInput::kNone) continue;
-    const bool begin_below = below(in_.begin_of(there)), end_below = below(in_.end_of(there));
-    if (begin_below != end_below) trace(begin_below ? there : back);
+    const PieceInput::Edge& edge = in_.edges[n];
+    if (passed_[n] == number_) continue;
+    const bool begin_below = below(edge.begin);
+    if (begin_below != below(edge.end)) trace(begin_below ? edge.there : edge.back);
   }
 }
 
@@ -70,7 +70,7 @@ void SectionLoops::trace(std::uint32_t start) {
     const PieceInput::Passage& passage = in_.passages[h];
     if (passage.edge != PieceInput::kNone) {
       passed_[passage.edge] = number_;
-      edges_.push_back({passage.edge, index, in_.edges[passage.edge][0] == h});
+      edges_.push_back({passage.edge, index, in_.edges[passage.edge].there == h});
     }
     const Corner apex = corner(passage.apex);
     Cut& cut = cuts_.emplace_back();
