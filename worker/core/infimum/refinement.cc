@@ -21,10 +21,10 @@ constexpr double kPromised = 1.05;    // at most so many times what is known
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
 constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
-constexpr double kSeedHope = 1.3;
+constexpr double kSeedHope = 2; 
 constexpr double kOfferPromise = 1;
 constexpr double kFollowPromise = 4;
-constexpr double kLess = 1e-10;      // by which a piece must be less to take the place of another
+constexpr double kLess = 1e-7;       // by which a piece must be less to take the place of another
 
 bool alike(const LeastChord& a, const LeastChord& b) {
   return dot(a.normal, b.normal) > kAlike;
@@ -182,7 +182,7 @@ LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent&
     if (known || offer.erosion > kPromised * best.erosion) continue;
     tried[tries++] = &offer;
     const LeastChord found = descent.descend(
-        x, offer, {kFirst * best.erosion, best.erosion, begins ? kFollowPromise : kOfferPromise});
+        x, offer, {kFirst * best.erosion, best.erosion * (lower || !begins ? 1 - kLess : 1), lower || !begins ? kOfferPromise : kFollowPromise});
     if (!(found.erosion < best.erosion * (1 - kLess))) continue;
     best = found;
     lower = true;
