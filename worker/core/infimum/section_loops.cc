@@ -1,6 +1,7 @@
 #include "core/infimum/section_loops.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace affskel::core {
 namespace {
@@ -23,6 +24,7 @@ void SectionLoops::cut(const Vec3& x, const Vec3& d) {
   x_ = x;
   d_ = d;
   make_basis(d, u_, w_);
+  axes_ = {Two{u_.x, w_.x}, Two{u_.y, w_.y}, Two{u_.z, w_.z}};
   loops_.clear();
   cuts_.clear();
   edges_.clear();
@@ -45,13 +47,12 @@ void SectionLoops::cut(const Vec3& x, const Vec3& d) {
 
 inline SectionLoops::Corner SectionLoops::corner(std::uint32_t vertex) const {
   const Vec3 y = in_.mesh.points[vertex] - x_;
-  return {dot(u_, y), dot(w_, y), dot(d_, y), vertex};
+  return {axes_[0] * y.x + axes_[1] * y.y + axes_[2] * y.z, dot(d_, y), vertex};
 }
 
 // Where the edge between two vertices, the first below, passes the plane.
-inline SectionLoops::PlanePoint SectionLoops::passed(const Corner& low, const Corner& high) {
-  const double share = low.height / (low.height - high.height);
-  return {low.a + share * (high.a - low.a), low.b + share * (high.b - low.b)};
+inline SectionLoops::Two SectionLoops::passed(const Corner& low, const Corner& high) {
+  return low.at + low.height / (low.height - high.height) * (high.at - low.at);
 }
 
 // From the half-edge that rises, triangle by triangle, until it comes back.
@@ -63,8 +64,9 @@ void SectionLoops::trace(std::uint32_t start) {
   Loop loop;
   loop.begin = static_cast<std::uint32_t>(cuts_.size());
   loop.low = low.vertex;
-  PlanePoint last = passed(low, high);
-  double area = 0, moment_a = 0, moment_b = 0;  // twice and six times
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Two last = passed(low, high), least{kFar, kFar}, most = -least, moment{};  // moment six times
+  double area = 0;                                                           // twice
   std::uint32_t h = start;
   do {
     const PieceInput::Passage& passage = in_.passages[h];
@@ -92,19 +94,21 @@ void SectionLoops::trace(std::uint32_t start) {
       h = passage.when_above;
     }
     cut.edge = h;
-    const PlanePoint at = cut.leaves = passed(low, high);
-    const double turn = last.a * at.b - at.a * last.b;
+    const Two at = passed(low, high);
+    cut.leaves = {at[0], at[1]};
+    const double turn = last[0] * at[1] - at[0] * last[1];
     area += turn;
-    moment_a += turn * (last.a + at.a);
-    moment_b += turn * (last.b + at.b);
+    moment += turn * (last + at);
     last = at;
-    loop.high_a = std::max(loop.high_a, at.a);
-    loop.low_b = std::min(loop.low_b, at.b);
-    loop.high_b = std::max(loop.high_b, at.b);
-    if (high.height > kTouchHeight && at.a > loop.rightmost.a) loop.rightmost = at;
+    least = at < least ? at : least;
+    most = at > most ? at : most;
+    if (high.height > kTouchHeight && at[0] > loop.rightmost.a) loop.rightmost = cut.leaves;
   } while (h != start);
   loop.area = 0.5 * area;
-  loop.moment = {moment_a / 6, moment_b / 6};
+  loop.moment = {moment[0] / 6, moment[1] / 6};
+  loop.high_a = most[0];
+  loop.low_b = least[1];
+  loop.high_b = most[1];
   loop.end = static_cast<std::uint32_t>(cuts_.size());
   loops_.push_back(loop);
 }

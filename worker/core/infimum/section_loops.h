@@ -97,15 +97,19 @@ class SectionLoops {
   }
 
  private:
+  // Both coordinates of a PlanePoint, worked on at once.
+  using Two = double __attribute__((vector_size(16)));
+
   // A vertex in the plane's axes.
   struct Corner {
-    double a = 0, b = 0, height = 0;
+    Two at;
+    double height = 0;
     std::uint32_t vertex = 0;
   };
 
   double height(std::uint32_t vertex) const { return dot(d_, in_.mesh.points[vertex] - x_); }
   Corner corner(std::uint32_t vertex) const;
-  static PlanePoint passed(const Corner& low, const Corner& high);
+  static Two passed(const Corner& low, const Corner& high);
   void trace(std::uint32_t start);
 
   // Where the loop passes the ray from a place to the right: calls visit(a there, whether b grows).
@@ -126,6 +130,7 @@ class SectionLoops {
 
   const PieceInput& in_;
   Vec3 x_, d_, u_, w_;
+  std::array<Two, 3> axes_;  // u and w, by coordinate of space
   FourTree::Lists lists_;
   std::vector<std::uint32_t> passed_;  // per edge: the section in which it was passed last
   std::uint32_t number_ = 0;           // of the section
