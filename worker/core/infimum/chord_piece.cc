@@ -36,6 +36,7 @@ using Loop = SectionLoops::Loop;
 
 // An edge of the vertices' trees that the plane cuts.
 struct CutEdge {
+  PieceInput::Branch branch;  // of its end away from the root
   std::uint32_t child = 0, loop = 0;
   bool child_below = false;
   std::uint32_t outer = kNone;  // the innermost cut edge above it in the tree
@@ -103,10 +104,10 @@ class PieceFinder::Work {
   void join_by_sides(std::uint32_t own) {
     sides_.assign(loops_.size(), 0);
     for (const SectionLoops::Edge& edge : section_.edges()) {
-      const std::uint32_t first = edge.number, count = in_.end[first] - first;
+      const PieceInput::Branch& branch = in_.branches[edge.number];
       const std::uint64_t bit = std::uint64_t{1} << edge.loop;
       for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-        sides_[l] ^= loops_[l].low - first < count ? bit : 0;
+        sides_[l] ^= branch.holds(in_.branches[loops_[l].low]) ? bit : 0;
       }
     }
     classes_.reset(loops_.size());
@@ -132,14 +133,14 @@ class PieceFinder::Work {
   void join_patches() {
     cuts_.clear();
     for (const SectionLoops::Edge& edge : section_.edges()) {
-      if (!is_handle(edge)) cuts_.push_back({edge.number, edge.loop, edge.begin_below, kNone});
+      if (!is_handle(edge)) cuts_.push_back({in_.branches[edge.number], edge.number, edge.loop, edge.begin_below, kNone});
     }
     std::sort(cuts_.begin(), cuts_.end(),
-              [](const CutEdge& i, const CutEdge& j) { return i.child < j.child; });
+              [](const CutEdge& i, const CutEdge& j) { return i.branch.first < j.branch.first; });
     std::uint32_t open = kNone;  // the innermost cut edge that the present one may lie below
     for (std::uint32_t i = 0; i < cuts_.size(); ++i) {
       CutEdge& cut = cuts_[i];
-      while (open != kNone && in_.end[cuts_[open].child] <= cut.child) open = cuts_[open].outer;
+      while (open != kNone && !cuts_[open].branch.holds(cut.branch)) open = cuts_[open].outer;
       cut.outer = open;
       classes_.unite(cut.loop, cut.child_below ? cut_member(i)
                                : open != kNone ? cut_member(open)
@@ -150,10 +151,12 @@ class PieceFinder::Work {
 
   // The member that a vertex below the plane belongs to.
   std::uint32_t member_of(std::uint32_t vertex) const {
-    const auto after = std::upper_bound(cuts_.begin(), cuts_.end(), vertex,
-                                        [](std::uint32_t v, const CutEdge& cut) { return v < cut.child; });
+    const PieceInput::Branch& branch = in_.branches[vertex];
+    const auto after = std::upper_bound(
+        cuts_.begin(), cuts_.end(), branch.first,
+        [](std::uint32_t first, const CutEdge& cut) { return first < cut.branch.first; });
     std::uint32_t at = after == cuts_.begin() ? kNone : static_cast<std::uint32_t>(after - cuts_.begin() - 1);
-    while (at != kNone && in_.end[cuts_[at].child] <= vertex) at = cuts_[at].outer;
+    while (at != kNone && !cuts_[at].branch.holds(branch)) at = cuts_[at].outer;
     return at != kNone ? cut_member(at) : shell_member(in_.shell_of[vertex]);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <utility>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/double_sum.h"
@@ -30,8 +31,7 @@ DoubleSum restored(std::uint64_t value) {
   return {hi / kUnit, lo / kUnit};
 }
 
-// The vertices in preorder of trees that are found breadth first, so that their branches stay short; parents
-// by old numbers.
+// The vertices in preorder of trees that are found breadth first, so that their branches stay short.
 struct Preorder {
   std::vector<std::uint32_t> order, parent;
 };
@@ -99,36 +99,42 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
 
 void PieceInput::number_anew(const Solid& solid) {
   const std::vector<std::uint32_t> triangle_order = FourTree().build(boxes_of(solid.mesh));
-  const Preorder vertices = preorder_of(solid.mesh);
-  std::vector<std::uint32_t> number(vertices.order.size()), triangle_number(triangle_order.size());
-  for (std::uint32_t v = 0; v < number.size(); ++v) number[vertices.order[v]] = v;
+  std::vector<std::uint32_t> number(solid.mesh.points.size(), kNone), triangle_number(triangle_order.size());
   mesh.points.reserve(number.size());
-  parent_.reserve(number.size());
-  for (const std::uint32_t v : vertices.order) {
-    mesh.points.push_back(solid.mesh.points[v]);
-    parent_.push_back(number[vertices.parent[v]]);
-  }
   mesh.triangles.reserve(triangle_order.size());
   for (const std::uint32_t t : triangle_order) {
     triangle_number[t] = static_cast<std::uint32_t>(mesh.triangles.size());
-    const Triangle& c = solid.mesh.triangles[t];
-    mesh.triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
+    Triangle& c = mesh.triangles.emplace_back(solid.mesh.triangles[t]);
+    for (std::uint32_t& v : c) {
+      if (number[v] == kNone) {
+        number[v] = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.push_back(solid.mesh.points[v]);
+      }
+      v = number[v];
+    }
   }
-  end.resize(number.size());
-  shell_of.resize(number.size());
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    end[v] = v + 1;
-    if (parent_[v] == v) shells.push_back({v, 0, {}});
-    shell_of[v] = static_cast<std::uint32_t>(shells.size() - 1);
-  }
-  for (std::uint32_t v = static_cast<std::uint32_t>(number.size()); v-- > 0;) {
-    end[parent_[v]] = std::max(end[parent_[v]], end[v]);
-  }
+  plant_trees();
   for (std::uint32_t t = 0; t < triangle_order.size(); ++t) {
     shells[shell_of[mesh.triangles[t][0]]].solid =
         solid.shells[solid.triangle_shell[triangle_order[t]]].solid;
   }
   if (!solid.crossings.empty()) add_crossings(solid, triangle_number);
+}
+
+void PieceInput::plant_trees() {
+  Preorder vertices = preorder_of(mesh);
+  parent_ = std::move(vertices.parent);
+  branches.resize(mesh.points.size());
+  shell_of.resize(mesh.points.size());
+  for (std::uint32_t i = 0; i < vertices.order.size(); ++i) {
+    const std::uint32_t v = vertices.order[i];
+    branches[v] = {i, 1};
+    if (parent_[v] == v) shells.push_back({v, 0, {}});
+    shell_of[v] = static_cast<std::uint32_t>(shells.size() - 1);
+  }
+  for (auto v = vertices.order.rbegin(); v != vertices.order.rend(); ++v) {
+    if (parent_[*v] != *v) branches[parent_[*v]].count += branches[*v].count;
+  }
 }
 
 // Solids that pass through each other are one from here on.
@@ -148,20 +154,20 @@ void PieceInput::add_crossings(const Solid& solid, const std::vector<std::uint32
 void PieceInput::sum_up() {
   constexpr double kThird = 1.0 / 3;
   faces.reserve(mesh.triangles.size());
-  std::vector<SurfaceSums> before(mesh.points.size() + 1);  // over the triangles of the vertices before
+  std::vector<SurfaceSums> before(mesh.points.size() + 1);  // over the triangles of vertices before, in preorder
   for (const Triangle& c : mesh.triangles) {
     const Vec3& p = mesh.points[c[0]];
     const Vec3 area = 0.5 * cross(mesh.points[c[1]] - p, mesh.points[c[2]] - p);
     faces.push_back({area,
                      {{quantised(kThird * dot(area, p)), quantised(kThird * area.x),
                        quantised(kThird * area.y), quantised(kThird * area.z)}}});
-    before[c[0] + 1] += faces.back().sums;
+    before[branches[c[0]].first + 1] += faces.back().sums;
   }
   for (std::size_t v = 1; v < before.size(); ++v) before[v] += before[v - 1];
   below.resize(mesh.points.size());
   for (std::size_t v = 0; v < below.size(); ++v) {
-    below[v] = before[end[v]];
-    below[v] -= before[v];
+    below[v] = before[branches[v].end()];
+    below[v] -= before[branches[v].first];
   }
 }
 

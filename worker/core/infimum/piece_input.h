@@ -36,8 +36,8 @@ struct SurfaceSums {
 
 /// What all planes through a solid share, for PieceFinder.  Immutable; threads share it.
 ///
-/// Vertices are numbered in preorder of a spanning tree of each shell: the vertices below one in the tree are
-/// [v, end[v]).  A set of vertices that is connected in the tree is a difference of such intervals, so that
+/// Vertices and triangles are numbered anew, so that neighbours are near in memory.  Each shell has a spanning
+/// tree of its vertices; in its preorder those below one are an interval.  A set of vertices that is connected in the tree is a difference of such intervals, so that
 /// its sums are known from the tree edges that leave it.
 struct PieceInput {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -61,6 +61,13 @@ struct PieceInput {
   PieceInput(const PieceInput&) = delete;
   PieceInput& operator=(const PieceInput&) = delete;
 
+  /// Of a vertex: itself and those below it in the tree, in preorder.
+  struct Branch {
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t end() const { return first + count; }
+    bool holds(const Branch& other) const { return other.first - first < count; }
+  };
+
   struct Face {
     Vec3 area;  ///< outward
     SurfaceSums sums;
@@ -78,7 +85,7 @@ struct PieceInput {
   Mesh mesh;                       ///< the solid's, numbered anew
   std::vector<Passage> passages;   ///< per half-edge 3 t + i
   std::vector<Face> faces;         ///< per triangle
-  std::vector<std::uint32_t> end;  ///< per vertex
+  std::vector<Branch> branches;    ///< per vertex
   /// Per vertex: sums over the triangles whose first corner is below it in the tree, or is the vertex itself.
   std::vector<SurfaceSums> below;
   struct Edge {
@@ -105,6 +112,7 @@ struct PieceInput {
  private:
   void number_anew(const Solid& solid);
   void add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number);
+  void plant_trees();
   void sum_up();
   void find_handles();
   void find_passages();
