@@ -28,7 +28,7 @@ namespace {
 constexpr std::uint32_t kNone = PieceInput::kNone;
 constexpr double kThird = 1.0 / 3;
 constexpr std::size_t kMostSides = 64;  // bits of a word
-constexpr double kSteepest = 1e9;  // of cot(inclination): level triangles have no finite one
+constexpr double kSteepest = 1e9;       // of cot(inclination): level triangles have no finite one
 
 using PlanePoint = SectionLoops::PlanePoint;
 using Cut = SectionLoops::Cut;
@@ -133,7 +133,8 @@ class PieceFinder::Work {
   void join_patches() {
     cuts_.clear();
     for (const SectionLoops::Edge& edge : section_.edges()) {
-      if (!is_handle(edge)) cuts_.push_back({in_.branches[edge.number], edge.number, edge.loop, edge.begin_below, kNone});
+      if (!is_handle(edge))
+        cuts_.push_back({in_.branches[edge.number], edge.number, edge.loop, edge.begin_below, kNone});
     }
     std::sort(cuts_.begin(), cuts_.end(),
               [](const CutEdge& i, const CutEdge& j) { return i.branch.first < j.branch.first; });
@@ -152,9 +153,9 @@ class PieceFinder::Work {
   // The member that a vertex below the plane belongs to.
   std::uint32_t member_of(std::uint32_t vertex) const {
     const PieceInput::Branch& branch = in_.branches[vertex];
-    const auto after = std::upper_bound(
-        cuts_.begin(), cuts_.end(), branch.first,
-        [](std::uint32_t first, const CutEdge& cut) { return first < cut.branch.first; });
+    const auto after =
+        std::upper_bound(cuts_.begin(), cuts_.end(), branch.first,
+                         [](std::uint32_t first, const CutEdge& cut) { return first < cut.branch.first; });
     std::uint32_t at = after == cuts_.begin() ? kNone : static_cast<std::uint32_t>(after - cuts_.begin() - 1);
     while (at != kNone && !cuts_[at].branch.holds(branch)) at = cuts_[at].outer;
     return at != kNone ? cut_member(at) : shell_member(in_.shell_of[vertex]);
@@ -258,8 +259,7 @@ class PieceFinder::Work {
 
   void add_triangle(const Cut& cut, Sums& sums) const {
     const PieceInput::Face& face = in_.faces[cut.triangle()];
-    const double corner =
-        cut.alone * cut.alone / ((cut.alone + cut.others[0]) * (cut.alone + cut.others[1]));
+    const double corner = cut.alone * cut.alone / ((cut.alone + cut.others[0]) * (cut.alone + cut.others[1]));
     const double share = cut.corner_below ? corner : 1 - corner;
     sums.cut += kThird * share * dot(face.area, in_.mesh.points[cut.corner] - x_);
     if (cut.first_below()) sums.whole -= face.sums;

@@ -20,14 +20,14 @@ namespace {
 constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
 constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
-constexpr int kMaxShorter = 6;        // of a step
-constexpr double kLongestStep = 0.5;  // of t
-constexpr double kLeastGain = 1e-9;   // of the volume: a step that promises less is not made
-constexpr double kMinGain = 1e-12;    // of the volume: a lesser decrease is none
-constexpr double kLastGain = 1e-8;    // of the volume: after it, the next would be below rounding
-constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whether a part joins there
-constexpr double kJump = 1e-9;        // of the volume
-constexpr double kAcross = 1e-6;      // how far below a saddle a descent across it starts
+constexpr int kMaxShorter = 6;          // of a step
+constexpr double kLongestStep = 0.5;    // of t
+constexpr double kLeastGain = 1e-9;     // of the volume: a step that promises less is not made
+constexpr double kMinGain = 1e-12;      // of the volume: a lesser decrease is none
+constexpr double kLastGain = 1e-8;      // of the volume: after it, the next would be below rounding
+constexpr double kBeyond = 1e-9;        // how far below a saddle it is tried whether a part joins there
+constexpr double kJump = 1e-9;          // of the volume
+constexpr double kAcross = 1e-6;        // how far below a saddle a descent across it starts
 constexpr double kWorthwhile = 1.3;  // how much more than the least piece one across a saddle may be at first
 constexpr double kWorth = 1e-7;      // of the least piece, by which another must be less
 constexpr double kFlat = 1e-12;      // of the largest second derivative: a lesser one is none
@@ -160,7 +160,8 @@ class ChordDescent::Work {
       const Vec3 y = from_x(least.saddles[i]);
       const Vec3 d = touching(least.normal - (kAcross / core::dot(y, y)) * y);
       const double none = std::numeric_limits<double>::infinity();
-      if (core::dot(d, y) < -kTouchHeight) keep(go_down(d, {none, best.erosion * (1 - kWorth), kAcrossPromise}));
+      if (core::dot(d, y) < -kTouchHeight)
+        keep(go_down(d, {none, best.erosion * (1 - kWorth), kAcrossPromise}));
     }
     const std::vector<SaddleSearch::Saddle> others = saddles_.just_below(x_, least.normal);
     for (const SaddleSearch::Saddle& saddle : others) {

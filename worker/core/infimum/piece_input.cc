@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/basis.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/double_sum.h"
 #include "core/base/unit.h"
@@ -16,8 +17,8 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kUnit = 0x1p62;  // see SurfaceSums
-constexpr double kLevelTurn = 1e-9;    // volume that edges of unit length span: less is level within rounding
+constexpr double kUnit = 0x1p62;     // see SurfaceSums
+constexpr double kLevelTurn = 1e-9;  // volume that edges of unit length span: less is level within rounding
 
 std::uint64_t quantised(double value) {
   return static_cast<std::uint64_t>(std::llrint(value * kUnit));
@@ -154,7 +155,8 @@ void PieceInput::add_crossings(const Solid& solid, const std::vector<std::uint32
 void PieceInput::sum_up() {
   constexpr double kThird = 1.0 / 3;
   faces.reserve(mesh.triangles.size());
-  std::vector<SurfaceSums> before(mesh.points.size() + 1);  // over the triangles of vertices before, in preorder
+  std::vector<SurfaceSums> before(mesh.points.size() +
+                                  1);  // over the triangles of vertices before, in preorder
   for (const Triangle& c : mesh.triangles) {
     const Vec3& p = mesh.points[c[0]];
     const Vec3 area = 0.5 * cross(mesh.points[c[1]] - p, mesh.points[c[2]] - p);
@@ -237,11 +239,46 @@ bool PieceInput::is_convex(std::uint32_t vertex) const {
   return std::max(left, right) == static_cast<int>(ring.size());
 }
 
+// With the surface's normal n as the pole, let ring vertices have azimuths that go once round, r their distance
+// from the pole's axis and h their height.  A plane of inclination f puts those below whose
+// r sin(f) cos(azimuth - the plane's) + h cos(f) < 0.  Without the heights that is one stretch of the ring; they
+// change it only at vertices whose |cos| is at most c = cot(f) max |h / r|, near the stretch's two ends.  Where
+// all gaps between azimuths are wider than 2 asin(c), an end has one such vertex at most: one stretch remains.
+PieceInput::Saddle PieceInput::saddle_at(std::uint32_t vertex) const {
+  constexpr double kSlack = 1.01, kShortest = 1e-6;
+  const auto ring = rings[vertex];
+  const std::size_t count = ring.size();
+  Saddle saddle;
+  saddle.vertex = vertex;
+  const auto edge = [&](std::size_t i) { return mesh.points[ring[i % count]] - mesh.points[vertex]; };
+  Vec3 sum;
+  for (std::size_t i = 0; i < count; ++i) sum = sum + cross(edge(i), edge(i + 1));
+  saddle.normal = unit(sum);
+  Vec3 u, w;
+  make_basis(saddle.normal, u, w);
+  double steepest = 0, least_gap = 1;  // h / r; 1 - cos
+  int turns = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 e = edge(i), next = edge(i + 1);
+    const double a = dot(u, e), b = dot(w, e), next_a = dot(u, next), next_b = dot(w, next);
+    const double r = std::sqrt(a * a + b * b), next_r = std::sqrt(next_a * next_a + next_b * next_b);
+    if (!(r > kShortest && next_r > kShortest) || a * next_b - b * next_a <= 0) return saddle;
+    steepest = std::max(steepest, std::abs(dot(saddle.normal, e)) / r);
+    least_gap = std::min(least_gap, 1 - (a * next_a + b * next_b) / (r * next_r));
+    turns += b < 0 && next_b >= 0;
+  }
+  if (turns != 1) return saddle;
+  const double tangent_squared =
+      kSlack * steepest * steepest / (0.5 * least_gap) + (kSlack - 1) * (kSlack - 1);
+  saddle.cosine = 1 / std::sqrt(1 + tangent_squared);
+  return saddle;
+}
+
 void PieceInput::find_saddles() {
   std::vector<Box> boxes;
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
     if (is_convex(v)) continue;
-    saddles.push_back(v);
+    saddles.push_back(saddle_at(v));
     boxes.emplace_back().include(mesh.points[v]);
   }
   saddle_tree.build(boxes);

@@ -82,14 +82,14 @@ struct PieceInput {
     std::uint32_t edge = kNone;  ///< its number among `edges`
   };
 
-  Mesh mesh;                       ///< the solid's, numbered anew
-  std::vector<Passage> passages;   ///< per half-edge 3 t + i
-  std::vector<Face> faces;         ///< per triangle
-  std::vector<Branch> branches;    ///< per vertex
+  Mesh mesh;                      ///< the solid's, numbered anew
+  std::vector<Passage> passages;  ///< per half-edge 3 t + i
+  std::vector<Face> faces;        ///< per triangle
+  std::vector<Branch> branches;   ///< per vertex
   /// Per vertex: sums over the triangles whose first corner is below it in the tree, or is the vertex itself.
   std::vector<SurfaceSums> below;
   struct Edge {
-    std::uint32_t begin = 0, end = 0;               ///< vertices
+    std::uint32_t begin = 0, end = 0;           ///< vertices
     std::uint32_t there = kNone, back = kNone;  ///< its half-edges; of a root none
   };
 
@@ -97,15 +97,21 @@ struct PieceInput {
   std::vector<Edge> edges;
   std::vector<std::uint32_t> shell_of;  ///< per vertex
   std::vector<Shell> shells;
-  FourTree edge_tree;             ///< over `edges`; a root is by itself
-  /// Vertices at which parts of a piece may meet: where the surface is not convex, nor the outside.
-  std::vector<std::uint32_t> saddles;
-  FourTree saddle_tree;           ///< over `saddles`
-  Groups<std::uint32_t> rings;    ///< per vertex: its neighbours, in their order round it
+  FourTree edge_tree;  ///< over `edges`; a root is by itself
+  /// A vertex at which parts of a piece may meet: where neither the solid is convex nor the outside.
+  struct Saddle {
+    std::uint32_t vertex = 0;
+    Vec3 normal;  ///< of the surface there, unit
+    double cosine =
+        0;  ///< the normals of all planes at which parts meet make no less with it, or its opposite
+  };
+  std::vector<Saddle> saddles;
+  FourTree saddle_tree;         ///< over `saddles`
+  Groups<std::uint32_t> rings;  ///< per vertex: its neighbours, in their order round it
   /// Pairs of triangles that pass through each other.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<std::uint8_t> crosses;  ///< per vertex: at such a triangle; empty where there is none
-  bool is_ball = false;  ///< one shell without handles that does not pass through itself
+  bool is_ball = false;               ///< one shell without handles that does not pass through itself
   double volume = 0;                  ///< of all solids, scaled units
   std::optional<RayShooter> rays;     ///< only where a solid has several shells
 
@@ -119,6 +125,7 @@ struct PieceInput {
   void find_rings();
   void find_saddles();
   bool is_convex(std::uint32_t vertex) const;
+  Saddle saddle_at(std::uint32_t vertex) const;
 
   std::vector<std::uint32_t> mates_;   // per half-edge; until the others are made
   std::vector<std::uint32_t> parent_;  // per vertex, of a root itself; likewise

@@ -17,14 +17,14 @@ constexpr std::size_t kBlock = 64;  // points that a thread takes at once
 constexpr double kSeedRounding = 1e-9;  // seeds have 36 bits
 
 // When a neighbour's plane is worth a descent, by the volume E + |grad E| n.(x - y) that it promises at x.
-constexpr double kPromised = 1.05;    // at most so many times what is known
+constexpr double kPromised = 1.05;   // at most so many times what is known
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
 constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
-constexpr double kSeedHope = 2; 
+constexpr double kSeedHope = 2;
 constexpr double kOfferPromise = 1;
 constexpr double kFollowPromise = 4;
-constexpr double kLess = 1e-7;       // by which a piece must be less to take the place of another
+constexpr double kLess = 1e-7;  // by which a piece must be less to take the place of another
 
 bool alike(const LeastChord& a, const LeastChord& b) {
   return dot(a.normal, b.normal) > kAlike;
@@ -103,7 +103,9 @@ void Refinement::each_of(std::size_t count, ExecutionContext& context, const Bod
 
 // A point begins in the round after the last of the neighbours that have fewer odd indices.
 void Refinement::find_first_rounds() {
-  const auto odd = [&](std::uint32_t p) { return (places_[p][0] & 1U) + (places_[p][1] & 1U) + (places_[p][2] & 1U); };
+  const auto odd = [&](std::uint32_t p) {
+    return (places_[p][0] & 1U) + (places_[p][1] & 1U) + (places_[p][2] & 1U);
+  };
   for (unsigned odds = 1; odds <= 3; ++odds) {
     for (std::uint32_t p = 0; p < around_.size(); ++p) {
       if (odd(p) != odds) continue;
@@ -181,14 +183,17 @@ LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent&
     });
     if (known || offer.erosion > kPromised * best.erosion) continue;
     tried[tries++] = &offer;
-    const LeastChord found = descent.descend(
-        x, offer, {kFirst * best.erosion, best.erosion * (lower || !begins ? 1 - kLess : 1), lower || !begins ? kOfferPromise : kFollowPromise});
+    const LeastChord found =
+        descent.descend(x, offer,
+                        {kFirst * best.erosion, best.erosion * (lower || !begins ? 1 - kLess : 1),
+                         lower || !begins ? kOfferPromise : kFollowPromise});
     if (!(found.erosion < best.erosion * (1 - kLess))) continue;
     best = found;
     lower = true;
   }
   if (begins && !(lower && alike(best, start)) && start.erosion < kSeedHope * best.erosion) {
-    const LeastChord own = descent.descend(x, start, {kFirst * best.erosion, best.erosion * (lower ? 1 : 1 + kSeedRounding), kFollowPromise});
+    const LeastChord own = descent.descend(
+        x, start, {kFirst * best.erosion, best.erosion * (lower ? 1 : 1 + kSeedRounding), kFollowPromise});
     if (own.erosion <= best.erosion * (1 + kSeedRounding)) {
       best = own;
       lower = true;

@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/basis.h"
+
 namespace affskel::core {
-namespace {
-
-// Two unit vectors that form a right-handed basis with d (Duff et al. 2017).
-void make_basis(const Vec3& d, Vec3& u, Vec3& w) {
-  const double sign = d.z >= 0 ? 1 : -1;
-  const double s = -1 / (sign + d.z), m = d.x * d.y * s;
-  u = {1 + sign * d.x * d.x * s, sign * m, -sign * d.x};
-  w = {m, sign + d.y * d.y * s, -d.y};
-}
-
-}  // namespace
 
 SectionLoops::SectionLoops(const PieceInput& input) : in_(input), passed_(input.edges.size(), 0) {}
 

@@ -30,10 +30,10 @@ class SectionLoops {
   /// One corner is alone on its side.
   struct Cut {
     PlanePoint leaves;
-    double alone = 0;                     ///< distance of that corner from the plane; 0 where that just touches it
-    std::array<double, 2> others{};       ///< distances of the other two
-    std::uint32_t edge = 0;               ///< the half-edge 3 t + i that it is left by
-    std::uint32_t corner = 0;             ///< the vertex that is alone
+    double alone = 0;                ///< distance of that corner from the plane; 0 where that just touches it
+    std::array<double, 2> others{};  ///< distances of the other two
+    std::uint32_t edge = 0;          ///< the half-edge 3 t + i that it is left by
+    std::uint32_t corner = 0;        ///< the vertex that is alone
     bool corner_below = false;
 
     std::uint32_t triangle() const { return edge / 3; }
