@@ -17,14 +17,16 @@ constexpr std::size_t kBlock = 64;  // points that a thread takes at once
 constexpr double kSeedRounding = 1e-9;  // seeds have 36 bits
 
 // When a neighbour's plane is worth a descent, by the volume E + |grad E| n.(x - y) that it promises at x.
-constexpr double kPromised = 1.05;   // at most so many times what is known
+constexpr double kPromised = 1.02;   // at most so many times what is known,
+constexpr double kBend = 2;          // but for so much of E times the square of its relative change
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
 constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
-constexpr double kSeedHope = 2;
-constexpr double kOfferPromise = 1;
-constexpr double kFollowPromise = 4;
-constexpr double kLess = 1e-7;  // by which a piece must be less to take the place of another
+constexpr double kLess = 1e-7;       // by which a piece must be less to take the place of another
+constexpr double kSeedHope = 2;      // how many times what neighbours led to a seed may be
+
+// DescentBound::promise: of a point that has nothing yet but its seed, and of others.
+constexpr double kFollowPromise = 4, kOfferPromise = 1;
 
 bool alike(const LeastChord& a, const LeastChord& b) {
   return dot(a.normal, b.normal) > kAlike;
@@ -139,9 +141,8 @@ LeastChord Refinement::from_seed(std::uint32_t p, const LeastChord& seed, ChordD
   return least.erosion <= seed.erosion * (1 + kSeedRounding) ? descent.look_across(x, least) : seed;
 }
 
-// What the neighbours offer, their erosion what they promise, the least first.  Two opposite ones of one basin
-// offer one plane.
-std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<LeastChord, 6>& offers) const {
+// What the neighbours offer, what promises least first.  Two opposite ones of one basin offer one plane.
+std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<Offer, 6>& offers) const {
   const Vec3 x = at(p);
   const auto promised = [&](std::uint32_t q) {
     return least_[q].erosion + least_[q].slope * dot(least_[q].normal, x - at(q));
@@ -150,18 +151,21 @@ std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<Least
   for (std::size_t i = 0; i < 6; ++i) {
     const std::uint32_t q = around_[p][i], opposite = around_[p][i ^ 1U];
     if (!offers_to(q, p, round)) continue;
-    LeastChord& offer = offers[count++];
-    offer = least_[q];
-    offer.erosion = promised(q);
-    if (!offers_to(opposite, p, round) || least_[opposite].saddles != offer.saddles ||
-        !alike(least_[opposite], offer))
+    Offer& offer = offers[count++];
+    offer.start = least_[q];
+    offer.promise = promised(q);
+    const double change = offer.promise / least_[q].erosion - 1;
+    offer.doubt = kBend * change * change * least_[q].erosion;
+    if (!offers_to(opposite, p, round) || least_[opposite].saddles != offer.start.saddles ||
+        !alike(least_[opposite], offer.start)) {
       continue;
-    offer.normal = unit(offer.normal + least_[opposite].normal);
-    offer.erosion = 0.5 * (offer.erosion + promised(opposite));
+    }
+    offer.start.normal = unit(offer.start.normal + least_[opposite].normal);
+    offer.promise = 0.5 * (offer.promise + promised(opposite));
     i |= 1U;
   }
   std::stable_sort(offers.begin(), offers.begin() + static_cast<std::ptrdiff_t>(count),
-                   [](const LeastChord& a, const LeastChord& b) { return a.erosion < b.erosion; });
+                   [](const Offer& a, const Offer& b) { return a.promise < b.promise; });
   return count;
 }
 
@@ -171,30 +175,30 @@ LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent&
   const bool begins = first_[p] == round;
   LeastChord best = start;
   bool lower = false;
-  std::array<LeastChord, 6> offers;
+  std::array<Offer, 6> offers;
   const std::size_t count = list_offers(round, p, offers);
   std::array<const LeastChord*, 7> tried{&start};
   std::size_t tries = begins ? 0 : 1;
   for (std::size_t i = 0; i < count; ++i) {
-    const LeastChord& offer = offers[i];
-    const bool less = offer.erosion < kNoBetter * best.erosion;
+    const Offer& offer = offers[i];
+    const bool less = offer.promise < kNoBetter * best.erosion;
     const bool known = std::any_of(tried.begin(), tried.begin() + tries, [&](const LeastChord* other) {
-      return (!less || other->saddles == offer.saddles) && alike(*other, offer);
+      return (!less || other->saddles == offer.start.saddles) && alike(*other, offer.start);
     });
-    if (known || offer.erosion > kPromised * best.erosion) continue;
-    tried[tries++] = &offer;
-    const LeastChord found =
-        descent.descend(x, offer,
-                        {kFirst * best.erosion, best.erosion * (lower || !begins ? 1 - kLess : 1),
-                         lower || !begins ? kOfferPromise : kFollowPromise});
+    if (known || offer.promise - offer.doubt > kPromised * best.erosion) continue;
+    tried[tries++] = &offer.start;
+    const bool any = lower || !begins;
+    const LeastChord found = descent.descend(
+        x, offer.start,
+        {kFirst * best.erosion, best.erosion * (any ? 1 - kLess : 1), any ? kOfferPromise : kFollowPromise});
     if (!(found.erosion < best.erosion * (1 - kLess))) continue;
     best = found;
     lower = true;
   }
   if (begins && !(lower && alike(best, start)) && start.erosion < kSeedHope * best.erosion) {
-    const LeastChord own = descent.descend(
-        x, start, {kFirst * best.erosion, best.erosion * (lower ? 1 : 1 + kSeedRounding), kFollowPromise});
-    if (own.erosion <= best.erosion * (1 + kSeedRounding)) {
+    const double bound = best.erosion * (lower ? 1 : 1 + kSeedRounding);
+    const LeastChord own = descent.descend(x, start, {kFirst * best.erosion, bound, kFollowPromise});
+    if (own.erosion <= bound) {
       best = own;
       lower = true;
     }

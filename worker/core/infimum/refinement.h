@@ -77,7 +77,12 @@ class Refinement {
   void each_of(std::size_t count, ExecutionContext& context, const Body& body);
   void find_first_rounds();
   bool offers_to(std::uint32_t neighbour, std::uint32_t point, int round) const;
-  std::size_t list_offers(int round, std::uint32_t point, std::array<LeastChord, 6>& offers) const;
+  struct Offer {
+    LeastChord start;
+    double promise = 0;  // E
+    double doubt = 0;    // of it
+  };
+  std::size_t list_offers(int round, std::uint32_t point, std::array<Offer, 6>& offers) const;
   std::vector<std::uint32_t> offered(int round, PointRange range) const;
   LeastChord from_seed(std::uint32_t point, const LeastChord& seed, ChordDescent& descent) const;
   LeastChord least_of_offers(int round, std::uint32_t point, ChordDescent& descent) const;

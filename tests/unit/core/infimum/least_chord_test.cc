@@ -103,7 +103,7 @@ TEST_F(BodyTest, NoPlaneNearItHasALesserPiece) {
   SplitMix64 random(5);
   int kinds[3] = {0, 0, 0};
   for (const Vec3& x : points_) {
-    const LeastChord least = descent_.descend(x, start_at(draw_direction(random)));
+    const LeastChord least = descent_.look_across(x, descent_.descend(x, start_at(draw_direction(random))));
     ASSERT_LT(least.erosion, input_.volume);
     ++kinds[least.kind()];
     for (int n = 0; n < 40; ++n) {
