@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,14 +46,16 @@ struct Refined {
         seeds(compute(solid, lattice, directions)),
         volume_unit(std::pow(solid.scale(), 3)) {
     ErosionField field(lattice.points, false);
-    for (std::uint32_t p = 0; p < lattice.points; ++p) {
-      FieldValue value = seeds.value[p];
-      value.erosion /= volume_unit;  // a power of two
-      value.area /= solid.scale() * solid.scale();
-      field.offer(p, value);
-    }
+    for (std::uint32_t p = 0; p < lattice.points; ++p) field.offer(p, scaled_seed(p));
     ExecutionContext context;
     values = refine(PieceInput(solid), lattice, seeds.directions, field, {.threads = threads}, context);
+  }
+
+  FieldValue scaled_seed(std::uint32_t p) const {
+    FieldValue value = seeds.value[p];
+    value.erosion /= volume_unit;  // a power of two
+    value.area /= solid.scale() * solid.scale();
+    return value;
   }
 
   /// E at a point, in mesh units.
@@ -125,12 +128,7 @@ TEST(RefineTest, TheSameByRanges) {
   const PieceInput input(whole.solid);
   Refinement parts(input, whole.lattice, 1);
   ExecutionContext context;
-  const auto seed = [&](std::uint32_t p) {
-    FieldValue value = whole.seeds.value[p];
-    value.erosion /= whole.volume_unit;
-    value.area /= whole.solid.scale() * whole.solid.scale();
-    return value;
-  };
+  const auto seed = [&](std::uint32_t p) { return whole.scaled_seed(p); };
   std::vector<RefinedPoint> found;
   int round = 0;
   do {
@@ -151,6 +149,39 @@ TEST(RefineTest, TheSameByRanges) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(parts.least()[p].erosion),
               std::bit_cast<std::uint64_t>(whole.values[p].erosion));
     EXPECT_TRUE(parts.least()[p].normal == whole.values[p].normal);
+  }
+}
+
+// One point in eight in round 0, those with one, two, three odd indices each in their round.
+TEST(RefineTest, PointsBeginInFourRounds) {
+  const Refined whole(make_body({.triangles = 500}), 3000, "triangles");
+  const PieceInput input(whole.solid);
+  Refinement rounds(input, whole.lattice, 1);
+  ExecutionContext context;
+  std::vector<std::uint32_t> all(whole.lattice.points);
+  std::iota(all.begin(), all.end(), 0U);
+  const std::vector<LatticePlace> places = lattice_places(whole.lattice, all);
+  const auto seed = [&](std::uint32_t p) { return whole.scaled_seed(p); };
+  for (int round = 0; round < 4; ++round) {
+    const PointRange range{0, whole.lattice.points};
+    const std::vector<RefinedPoint> found = round == 0
+                                                ? rounds.descend(whole.seeds.directions, seed, range, context)
+                                                : rounds.improve(round, range, context);
+    std::size_t begun = 0, of_round = 0;
+    for (const RefinedPoint& point : found) {
+      const auto& [i, j, k] = places[point.point];
+      const bool waits = point.least.erosion == seed(point.point).erosion;
+      begun += !waits && static_cast<int>(i % 2 + j % 2 + k % 2) == round;
+      rounds.set(point, round);
+    }
+    for (const auto& [i, j, k] : places) of_round += static_cast<int>(i % 2 + j % 2 + k % 2) == round;
+    EXPECT_GT(static_cast<double>(begun), 0.8 * static_cast<double>(of_round)) << round;
+    if (round == 0) {
+      const auto waiting = std::count_if(found.begin(), found.end(), [&](const RefinedPoint& point) {
+        return point.least.erosion == seed(point.point).erosion;
+      });
+      EXPECT_GT(static_cast<double>(waiting), 0.7 * whole.lattice.points);
+    }
   }
 }
 
