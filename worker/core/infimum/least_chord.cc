@@ -13,6 +13,7 @@
 #include "core/infimum/chord_piece.h"
 #include "core/infimum/saddle_search.h"
 #include "core/infimum/section_loops.h"
+#include "core/infimum/tilt_step.h"
 
 namespace affskel::core {
 namespace {
@@ -21,7 +22,6 @@ constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
 constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
 constexpr int kMaxShorter = 6;          // of a step
-constexpr double kLongestStep = 0.12;   // of t
 constexpr double kLeastGain = 1e-9;     // of the volume: a step that promises less is not made
 constexpr double kMinGain = 1e-12;      // of the volume: a lesser decrease is none
 constexpr double kLastGain = 1e-8;      // of the volume: after it, the next would be below rounding
@@ -30,68 +30,7 @@ constexpr double kJump = 1e-9;          // of the volume
 constexpr double kAcross = 1e-6;        // how far below a saddle a descent across it starts
 constexpr double kWorthwhile = 1.3;  // how much more than the least piece one across a saddle may be at first
 constexpr double kWorth = 1e-7;      // of the least piece, by which another must be less
-constexpr double kFlat = 1e-12;      // of the largest second derivative: a lesser one is none
-constexpr double kRaised = 1e-3;     // likewise, what takes its place
 constexpr double kParallel = 1e-9;   // sine between two saddles' z
-
-using Flat = std::array<double, 2>;
-
-double dot(const Flat& a, const Flat& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-double cross(const Flat& a, const Flat& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-double norm(const Flat& a) {
-  return std::sqrt(dot(a, a));
-}
-Flat times(double s, const Flat& a) {
-  return {s * a[0], s * a[1]};
-}
-
-// A step of t, and what f is to fall by to second order.
-struct Step {
-  Flat t{};
-  double gain = 0;
-};
-
-// A piece with its second derivatives.
-struct Stand : ChordPiece {
-  Hessian hessian{};
-};
-
-double bend(const Hessian& h, const Flat& t) {
-  return h[0] * t[0] * t[0] + 2 * h[1] * t[0] * t[1] + h[2] * t[1] * t[1];
-}
-
-Step step_along(const Stand& at, Flat t) {
-  const double length = norm(t);
-  if (length > kLongestStep) t = times(kLongestStep / length, t);
-  return {t, -(dot(at.gradient, t) + 0.5 * bend(at.hessian, t))};
-}
-
-// Newton's step; where f is not convex its second derivative is raised until it is.
-Step free_step(const Stand& at) {
-  const auto& [a, b, c] = at.hessian;
-  const double mean = 0.5 * (a + c), spread = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
-  const double least = mean - spread, most = std::max(std::abs(mean) + spread, kFlat * at.area);
-  const double more = least > kFlat * most ? 0 : kRaised * most - least;
-  const double aa = a + more, cc = c + more, det = aa * cc - b * b;
-  const Flat& g = at.gradient;
-  if (det > 0) return step_along(at, {-(cc * g[0] - b * g[1]) / det, -(aa * g[1] - b * g[0]) / det});
-  const double size = norm(g);
-  return size > 0 ? step_along(at, times(-kLongestStep / size, g)) : Step{};
-}
-
-// Along the great circle of a saddle.
-Step step_round(const Stand& at, const Flat& z) {
-  const double length = norm(z);
-  const Flat e = {-z[1] / length, z[0] / length};
-  const double first = dot(at.gradient, e), second = bend(at.hessian, e);
-  if (first == 0) return {};
-  const bool convex = second * kLongestStep > std::abs(first);
-  return step_along(at, times(convex ? -first / second : first > 0 ? -kLongestStep : kLongestStep, e));
-}
 
 }  // namespace
 
@@ -139,7 +78,7 @@ class ChordDescent::Work {
     if (!valid(piece_) || piece_.volume > bound.first) return {};
     piece_.hessian = finder_.hessian();
     for (int n = 0; n < kMaxSteps; ++n) {
-      const Step step = next_step();
+      const TiltStep step = next_step();
       if (piece_.volume - bound.promise * step.gain > bound.erosion) return {};
       if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
     }
@@ -249,7 +188,7 @@ class ChordDescent::Work {
   }
 
   // Lets go of saddles that hold nothing back, and steps along those that remain.
-  Step next_step() {
+  TiltStep next_step() {
     if (active_.size() == 2) {
       const Flat a = flat(active_[0]), b = flat(active_[1]);
       if (std::abs(cross(a, b)) <= kParallel * norm(a) * norm(b)) {
@@ -263,7 +202,7 @@ class ChordDescent::Work {
     if (active_.empty()) return free_step(piece_);
     const Flat z = flat(active_[0]);
     if (dot(piece_.gradient, z) < 0) {
-      const Step free = free_step(piece_);
+      const TiltStep free = free_step(piece_);
       if (dot(free.t, z) > 0) {
         active_.clear();
         return free;
@@ -272,7 +211,7 @@ class ChordDescent::Work {
     return step_round(piece_, z);
   }
 
-  Vec3 tilted(const Step& step, double share) const {
+  Vec3 tilted(const TiltStep& step, double share) const {
     return d_ + ((share * step.t[0]) * piece_.u + (share * step.t[1]) * piece_.w);
   }
 
@@ -289,7 +228,7 @@ class ChordDescent::Work {
   }
 
   // Makes the step, or as much of it as lets f fall; false when none does.
-  bool go(const Step& step) {
+  bool go(const TiltStep& step) {
     const Vec3 end = touching(tilted(step, 1));
     const ChordPiece there = find(end);
     if (falls(there)) {
@@ -301,7 +240,7 @@ class ChordDescent::Work {
   }
 
   // f is smooth up to `share` of the step, and does not fall as far as there.
-  bool go_shorter(const Step& step, double share, const ChordPiece& end) {
+  bool go_shorter(const TiltStep& step, double share, const ChordPiece& end) {
     if (step.gain < kLastGain * piece_.volume) return false;
     ChordPiece there = end;
     for (int n = 0; n < kMaxShorter; ++n) {
@@ -316,7 +255,7 @@ class ChordDescent::Work {
   }
 
   // The least of the parabola through f and its slope here and f there, as a share of the way.
-  double shorter(const Step& step, double share, const ChordPiece& there) const {
+  double shorter(const TiltStep& step, double share, const ChordPiece& there) const {
     if (!valid(there)) return 0.25;
     const double slope = share * dot(piece_.gradient, step.t);
     const double rise = there.volume - piece_.volume - slope;
@@ -324,14 +263,14 @@ class ChordDescent::Work {
   }
 
   // How many of the meetings lie where the plane is now, within rounding.
-  std::size_t meetings_here(const Step& step) const {
+  std::size_t meetings_here(const TiltStep& step) const {
     const double fall = -dot(piece_.gradient, step.t);
     std::size_t here = 0;
     while (here < meetings_.size() && meetings_[here].at * fall <= kLastGain * piece_.volume) ++here;
     return here;
   }
 
-  bool go_to_meeting(const Step& step, const ChordPiece& end) {
+  bool go_to_meeting(const TiltStep& step, const ChordPiece& end) {
     const std::size_t here = meetings_here(step);
     std::size_t falling = here, rising = meetings_.size();  // how many are passed
     Vec3 best;
