@@ -61,6 +61,12 @@ Metrics::Metrics()
           counters("affskel_owner_directions_total",
                    "Directions done for the first time, by the job's owner; the owners beyond the first "
                    "100 are counted together")),
+      refined_points_(
+          counters("affskel_refined_points_total", "Sample points refined, each counted in every round")
+              .Add({})),
+      refined_points_repeated_(counters("affskel_refined_points_repeated_total",
+                                        "Sample points reported that were refined before, in the same round")
+                                   .Add({})),
       waited_(histograms("affskel_transaction_wait_seconds",
                          "Time that writing transactions waited for their turn")
                   .Add({}, kCallSeconds)),
@@ -115,6 +121,11 @@ void Metrics::directions(const std::string& owner, std::int64_t added, std::int6
   directions_.Increment(static_cast<double>(added));
   repeated_.Increment(static_cast<double>(repeated));
   owner_directions_.Add({{"owner", known_owner(owner)}}).Increment(static_cast<double>(added));
+}
+
+void Metrics::refined_points(std::int64_t added, std::int64_t repeated) {
+  refined_points_.Increment(static_cast<double>(added));
+  refined_points_repeated_.Increment(static_cast<double>(repeated));
 }
 
 void Metrics::transaction(Duration waited, Duration worked) {

@@ -55,6 +55,9 @@ class Metrics {
   /// Directions of an accepted report: done for the first time, and such as were done before.
   void directions(const std::string& owner, std::int64_t added, std::int64_t repeated);
 
+  /// Sample points of an accepted report of a refinement, likewise; each counts once in every round.
+  void refined_points(std::int64_t added, std::int64_t repeated);
+
   /// A transaction that writes waited for its turn and then worked, commit included.
   void transaction(Duration waited, Duration worked);
 
@@ -82,6 +85,8 @@ class Metrics {
   prometheus::Counter& directions_;
   prometheus::Counter& repeated_;
   Counters& owner_directions_;
+  prometheus::Counter& refined_points_;
+  prometheus::Counter& refined_points_repeated_;
   prometheus::Histogram& waited_;
   prometheus::Histogram& worked_;
 

@@ -1,6 +1,7 @@
 #include <exception>
 #include <utility>
 
+#include "base/refine_rounds.h"
 #include "database/errors.h"
 #include "store/givers.h"
 #include "store/job_life.h"
@@ -91,6 +92,10 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
   if (directions) {
     tx.changes.counts.push_back([owner, progress](Metrics& metrics) {
       metrics.directions(owner, progress.added, progress.reported - progress.added);
+    });
+  } else {
+    tx.changes.counts.push_back([progress](Metrics& metrics) {
+      metrics.refined_points(progress.added, progress.reported - progress.added);
     });
   }
   tx.db.run(
@@ -191,6 +196,7 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
 
 v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, const RefinedBatch& batch) {
   std::exception_ptr refusal;
+  JobRow reported;
   const v1::ReportResponse response = write_field(header.token(), [&](Tx& tx) {
     const TaskRow task = of_kind(v1::TASK_KIND_REFINE, held_task(tx, header.token()));
     const JobRow job = get_job(tx.db, task.job_id);
@@ -209,6 +215,8 @@ v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, 
     Progress progress;
     for (const Range& range : ranges) progress.reported += range.end - range.begin;
     progress.added = take_refined(tx, job, task, ranges, batch.records());
+    reported = job;
+    reported.refined_points += progress.added;
     count_report(tx, task, progress);
     const bool cancelled = !job.active() || job.cancel_requested;
     if (header.block_done()) {
@@ -225,6 +233,12 @@ v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, 
     return reply(cancelled);
   });
   if (refusal) std::rethrow_exception(refusal);
+  if (reported.points > 0) {
+    const std::int64_t begun =
+        base::refine_points_begun(reported.round, reported.refined_points, reported.points);
+    times_left_.add(reported.id, clock_.lease_ms(), static_cast<std::uint64_t>(begun),
+                    static_cast<std::uint64_t>(reported.points));
+  }
   return response;
 }
 

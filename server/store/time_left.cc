@@ -80,7 +80,9 @@ void TimesLeft::add(const std::string& job, std::int64_t now_ms, std::uint64_t d
 }
 
 void TimesLeft::fill_in(v1::Job& job, std::int64_t now_ms) const {
-  if (job.state() != v1::JOB_STATE_RUNNING || job.stage() != v1::JOB_STAGE_ERODE) return;
+  if (job.state() != v1::JOB_STATE_RUNNING ||
+      !(job.stage() == v1::JOB_STAGE_ERODE || job.stage() == v1::JOB_STAGE_REFINE))
+    return;
   const base::MutexLock lock(mutex_);
   const auto known = jobs_.find(job.id());
   if (known == jobs_.end()) return;

@@ -45,7 +45,8 @@ class TimeLeft {
   double total_ = 0;
 };
 
-/// The times left of all jobs that are being eroded; forgotten by a restart.  Thread-safe.
+/// The times left of all jobs that are being eroded or refined, each stage by itself; of a refinement what is done are
+/// the points that have begun (base::refine_points_begun).  Forgotten by a restart.  Thread-safe.
 class TimesLeft {
  public:
   void add(const std::string& job, std::int64_t now_ms, std::uint64_t done, std::uint64_t total);

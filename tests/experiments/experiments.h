@@ -58,6 +58,8 @@ void barrier_experiment(const Setting& setting, Report& report);
 void steadiness_experiment(const Setting& setting, Report& report);
 /// Not published: how near skeletons come to the ends of solids, beside mean curvature skeletons.
 void reach_experiment(const Setting& setting, Report& report);
+/// Not published: one solid in several tessellations, and sets of directions against the infimum.
+void tessellation_experiment(const Setting& setting, Report& report);
 /// 6.5.2: time against the number of triangles.
 void growth_experiment(const Setting& setting, Report& report);
 

@@ -27,7 +27,8 @@ constexpr Experiment kExperiments[] = {
     {"threshold", threshold_experiment},   {"noise", noise_experiment},
     {"affine", affine_experiment},         {"planes", plane_experiment},
     {"barrier", barrier_experiment},       {"steadiness", steadiness_experiment},
-    {"reach", reach_experiment},           {"growth", growth_experiment},
+    {"reach", reach_experiment},           {"tessellations", tessellation_experiment},
+    {"growth", growth_experiment},
 };
 
 std::string heading(const Setting& setting, double seconds) {

@@ -11,6 +11,8 @@
 //     edges that cut handles open count as the tree's.
 //   - loops of one lid: the loop that a ray in the plane meets next, where solid lies between.
 //   - a shell wholly below, and what a ray downwards from it meets.
+// Where a single shell without handles is all there is, a loop parts it in two, and the patches are told apart by
+// the sides of the loops on which they lie.
 #include "core/infimum/chord_piece.h"
 
 #include <algorithm>
@@ -25,25 +27,20 @@ namespace {
 
 constexpr std::uint32_t kNone = PieceInput::kNone;
 constexpr double kThird = 1.0 / 3;
-constexpr double kSteepest = 1e9;  // of cot(inclination): level triangles have no finite one
-
-// By sides_of(): the corner that is alone on its side.
-constexpr std::array<std::uint8_t, 8> kAlone = {0, 0, 1, 2, 2, 1, 0, 0};
+constexpr std::size_t kMostSides = 64;  // bits of a word
+constexpr double kSteepest = 1e9;       // of cot(inclination): level triangles have no finite one
 
 using PlanePoint = SectionLoops::PlanePoint;
 using Cut = SectionLoops::Cut;
 using Loop = SectionLoops::Loop;
 
-// A tree edge that the plane cuts.
-struct CutEdge : SectionLoops::TreeEdge {
+// An edge of the vertices' trees that the plane cuts.
+struct CutEdge {
+  PieceInput::Branch branch;  // of its end away from the root
+  std::uint32_t child = 0, loop = 0;
+  bool child_below = false;
   std::uint32_t outer = kNone;  // the innermost cut edge above it in the tree
 };
-
-// Not std::hypot, which may differ from machine to machine.
-double length(const PlanePoint& from, const PlanePoint& to) {
-  const double a = to.a - from.a, b = to.b - from.b;
-  return std::sqrt(a * a + b * b);
-}
 
 }  // namespace
 
@@ -64,7 +61,7 @@ class PieceFinder::Work {
     const std::uint32_t own = section_.loop_right_of({}, [](std::uint32_t) { return true; });
     if (own == kNone) return {};
     join(own);
-    return piece(own);
+    return piece();
   }
 
   Hessian hessian() const {
@@ -79,34 +76,72 @@ class PieceFinder::Work {
     return static_cast<std::uint32_t>(loops_.size()) + cut;
   }
   std::uint32_t shell_member(std::uint32_t shell) const {
-    return static_cast<std::uint32_t>(loops_.size() + section_.tree_edges().size()) + shell;
+    return static_cast<std::uint32_t>(loops_.size() + section_.edges().size()) + shell;
   }
+  std::uint32_t shell_of(const Loop& loop) const { return in_.shell_of[loop.low]; }
 
   void join(std::uint32_t own) {
-    solid_ = in_.shells[loops_[own].shell].solid;
-    classes_.reset(loops_.size() + section_.tree_edges().size() + in_.shells.size());
-    if (loops_.size() > 1 || solid_shells_[solid_].size() > 1 || !in_.crossings.empty()) {
-      join_patches();
-      join_lids();
-      join_handles();
-      join_crossings();
-      join_whole_shells();
-    } else {
-      classes_.unite(own, shell_member(loops_[own].shell));
+    solid_ = in_.shells[shell_of(loops_[own])].solid;
+    joined_.assign(loops_.size(), 0);
+    whole_.clear();
+    if (in_.is_ball && loops_.size() <= kMostSides) return join_by_sides(own);
+    classes_.reset(loops_.size() + section_.edges().size() + in_.shells.size());
+    join_patches();
+    join_lids();
+    join_handles();
+    join_crossings();
+    join_whole_shells();
+    const std::uint32_t of_own = classes_.find(own);
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) joined_[l] = classes_.find(l) == of_own;
+    for (const std::uint32_t s : solid_shells_[solid_]) {
+      const std::uint32_t root = in_.shells[s].root;
+      if (classes_.find(shell_member(s)) == of_own && section_.below(root)) whole_.push_back(root);
     }
   }
 
-  bool of_solid(const Loop& loop) const { return in_.shells[loop.shell].solid == solid_; }
+  // A vertex lies on the root's side of a loop where the way to the root in the tree passes it an even number of
+  // times.
+  void join_by_sides(std::uint32_t own) {
+    sides_.assign(loops_.size(), 0);
+    for (const SectionLoops::Edge& edge : section_.edges()) {
+      const PieceInput::Branch& branch = in_.branches[edge.number];
+      const std::uint64_t bit = std::uint64_t{1} << edge.loop;
+      for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+        sides_[l] ^= branch.holds(in_.branches[loops_[l].low]) ? bit : 0;
+      }
+    }
+    classes_.reset(loops_.size());
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+      for (std::uint32_t other = 0; other < l; ++other) {
+        if (sides_[l] == sides_[other]) classes_.unite(l, other);
+      }
+    }
+    join_lids();
+    const std::uint32_t of_own = classes_.find(own), root = in_.shells[0].root;
+    bool root_side = false;
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+      joined_[l] = classes_.find(l) == of_own;
+      root_side = root_side || (joined_[l] != 0 && sides_[l] == 0);
+    }
+    if (root_side) whole_.push_back(root);
+  }
+
+  bool is_handle(const SectionLoops::Edge& edge) const { return edge.number >= in_.mesh.points.size(); }
+
+  bool of_solid(const Loop& loop) const { return in_.shells[shell_of(loop)].solid == solid_; }
 
   void join_patches() {
     cuts_.clear();
-    for (const SectionLoops::TreeEdge& edge : section_.tree_edges()) cuts_.push_back({edge, kNone});
+    for (const SectionLoops::Edge& edge : section_.edges()) {
+      if (!is_handle(edge))
+        cuts_.push_back({in_.branches[edge.number], edge.number, edge.loop, edge.begin_below, kNone});
+    }
     std::sort(cuts_.begin(), cuts_.end(),
-              [](const CutEdge& i, const CutEdge& j) { return i.child < j.child; });
+              [](const CutEdge& i, const CutEdge& j) { return i.branch.first < j.branch.first; });
     std::uint32_t open = kNone;  // the innermost cut edge that the present one may lie below
     for (std::uint32_t i = 0; i < cuts_.size(); ++i) {
       CutEdge& cut = cuts_[i];
-      while (open != kNone && in_.end[cuts_[open].child] <= cut.child) open = cuts_[open].outer;
+      while (open != kNone && !cuts_[open].branch.holds(cut.branch)) open = cuts_[open].outer;
       cut.outer = open;
       classes_.unite(cut.loop, cut.child_below ? cut_member(i)
                                : open != kNone ? cut_member(open)
@@ -117,14 +152,17 @@ class PieceFinder::Work {
 
   // The member that a vertex below the plane belongs to.
   std::uint32_t member_of(std::uint32_t vertex) const {
-    const auto after = std::upper_bound(cuts_.begin(), cuts_.end(), vertex,
-                                        [](std::uint32_t v, const CutEdge& cut) { return v < cut.child; });
+    const PieceInput::Branch& branch = in_.branches[vertex];
+    const auto after =
+        std::upper_bound(cuts_.begin(), cuts_.end(), branch.first,
+                         [](std::uint32_t first, const CutEdge& cut) { return first < cut.branch.first; });
     std::uint32_t at = after == cuts_.begin() ? kNone : static_cast<std::uint32_t>(after - cuts_.begin() - 1);
-    while (at != kNone && in_.end[cuts_[at].child] <= vertex) at = cuts_[at].outer;
+    while (at != kNone && !cuts_[at].branch.holds(branch)) at = cuts_[at].outer;
     return at != kNone ? cut_member(at) : shell_member(in_.shell_of[vertex]);
   }
 
   void join_lids() {
+    if (loops_.size() < 2) return;
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       if (!of_solid(loops_[l])) continue;
       const std::uint32_t next = section_.loop_right_of(
@@ -134,7 +172,11 @@ class PieceFinder::Work {
   }
 
   void join_handles() {
-    for (const auto& [low, loop] : section_.handle_edges()) classes_.unite(loop, member_of(low));
+    for (const SectionLoops::Edge& edge : section_.edges()) {
+      if (!is_handle(edge)) continue;
+      const PieceInput::Edge& of_mesh = in_.edges[edge.number];
+      classes_.unite(edge.loop, member_of(edge.begin_below ? of_mesh.begin : of_mesh.end));
+    }
     for (const std::uint32_t s : solid_shells_[solid_]) {
       for (const Segment& edge : in_.shells[s].handles) {
         if (section_.below(edge[0]) && section_.below(edge[1]))
@@ -162,7 +204,7 @@ class PieceFinder::Work {
     const std::vector<std::uint32_t>& shells = solid_shells_[solid_];
     if (shells.size() < 2) return;
     cut_shell_.assign(in_.shells.size(), 0);
-    for (const Loop& loop : loops_) cut_shell_[loop.shell] = 1;
+    for (const Loop& loop : loops_) cut_shell_[shell_of(loop)] = 1;
     for (const std::uint32_t s : shells) {
       const std::uint32_t root = in_.shells[s].root;
       if (cut_shell_[s] != 0 || !section_.below(root)) continue;
@@ -176,26 +218,22 @@ class PieceFinder::Work {
     }
   }
 
-  ChordPiece piece(std::uint32_t own) {
-    const std::uint32_t joined = classes_.find(own);
+  ChordPiece piece() {
     Sums sums;
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-      if (classes_.find(l) != joined) continue;
+      if (joined_[l] == 0) continue;
       own_loops_.push_back(l);
       add_up(loops_[l], sums);
     }
-    for (const SectionLoops::TreeEdge& edge : section_.tree_edges()) {
-      if (classes_.find(edge.loop) != joined) continue;
-      if (edge.child_below) {
-        sums.whole += in_.below(edge.child);
+    for (const SectionLoops::Edge& edge : section_.edges()) {
+      if (joined_[edge.loop] == 0 || is_handle(edge)) continue;
+      if (edge.begin_below) {
+        sums.whole += in_.below[edge.number];
       } else {
-        sums.whole -= in_.below(edge.child);
+        sums.whole -= in_.below[edge.number];
       }
     }
-    for (const std::uint32_t s : solid_shells_[solid_]) {
-      const std::uint32_t root = in_.shells[s].root;
-      if (classes_.find(shell_member(s)) == joined && section_.below(root)) sums.whole += in_.below(root);
-    }
+    for (const std::uint32_t root : whole_) sums.whole += in_.below[root];
     ChordPiece piece;
     piece.found = true;
     piece.volume = sums.cut + sums.whole.volume_from(x_);
@@ -214,32 +252,17 @@ class PieceFinder::Work {
   };
 
   void add_up(const Loop& loop, Sums& sums) const {
-    PlanePoint from = section_.cuts()[loop.end - 1].leaves;
-    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
-      const Cut& cut = section_.cuts()[i];
-      add_triangle(cut, sums);
-      const PlanePoint& to = cut.leaves;
-      const double turn = from.a * to.b - to.a * from.b;
-      sums.area += 0.5 * turn;
-      sums.moment[0] += turn * (from.a + to.a) / 6;
-      sums.moment[1] += turn * (from.b + to.b) / 6;
-      from = to;
-    }
+    sums.area += loop.area;
+    for (std::size_t k = 0; k < 2; ++k) sums.moment[k] += loop.moment[k];
+    for (std::uint32_t i = loop.begin; i < loop.end; ++i) add_triangle(section_.cuts()[i], sums);
   }
 
   void add_triangle(const Cut& cut, Sums& sums) const {
-    const Triangle& c = in_.mesh.triangles[cut.triangle];
-    const unsigned sides = sides_of(cut.height);
-    const std::size_t k = kAlone[sides];
-    const double sign = (sides >> k & 1U) != 0 ? -1 : 1;
-    // Distances from the plane.
-    const double alone = std::max(sign * cut.height[k], 0.0);
-    const double second = std::max(-sign * cut.height[(k + 1) % 3], 0.0);
-    const double third = std::max(-sign * cut.height[(k + 2) % 3], 0.0);
-    const double corner = alone * alone / ((alone + second) * (alone + third));
-    const double share = sign < 0 ? corner : 1 - corner;
-    sums.cut += kThird * share * dot(in_.area_vector[cut.triangle], in_.mesh.points[c[k]] - x_);
-    if ((sides & 1U) != 0) sums.whole -= in_.own[cut.triangle];
+    const PieceInput::Face& face = in_.faces[cut.triangle()];
+    const double corner = cut.alone * cut.alone / ((cut.alone + cut.others[0]) * (cut.alone + cut.others[1]));
+    const double share = cut.corner_below ? corner : 1 - corner;
+    sums.cut += kThird * share * dot(face.area, in_.mesh.points[cut.corner] - x_);
+    if (cut.first_below()) sums.whole -= face.sums;
   }
 
   void add_bend(const Loop& loop, Hessian& sum) const {
@@ -247,7 +270,7 @@ class PieceFinder::Work {
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
       const Cut& cut = section_.cuts()[i];
       const PlanePoint& to = cut.leaves;
-      const double weight = slope(cut.triangle) * length(from, to) * kThird;
+      const double weight = kThird * spread(cut.triangle(), {to.a - from.a, to.b - from.b});
       sum[0] += weight * (from.a * from.a + from.a * to.a + to.a * to.a);
       sum[1] += weight * (from.a * from.b + 0.5 * (from.a * to.b + to.a * from.b) + to.a * to.b);
       sum[2] += weight * (from.b * from.b + from.b * to.b + to.b * to.b);
@@ -255,12 +278,16 @@ class PieceFinder::Work {
     }
   }
 
-  // How far the rim moves outwards in the plane when that rises by one.
-  double slope(std::uint32_t triangle) const {
-    const Vec3& n = in_.area_vector[triangle];
+  // How far a stretch of the rim moves outwards in the plane when that rises by one, times its length.
+  double spread(std::uint32_t triangle, const PlanePoint& stretch) const {
+    const Vec3& n = in_.faces[triangle].area;
     const double up = -dot(n, d_), a = dot(n, section_.u()), b = dot(n, section_.w());
-    const double across = std::sqrt(a * a + b * b);
-    return across * kSteepest > std::abs(up) ? up / across : up > 0 ? kSteepest : -kSteepest;
+    const double across = a * a + b * b;
+    if (across * (kSteepest * kSteepest) > up * up) {
+      // The stretch is a multiple of (-b, a).
+      return up * (a * stretch.b - b * stretch.a) / across;
+    }
+    return (up > 0 ? kSteepest : -kSteepest) * std::sqrt(stretch.a * stretch.a + stretch.b * stretch.b);
   }
 
   const PieceInput& in_;
@@ -271,6 +298,9 @@ class PieceFinder::Work {
   std::uint32_t solid_ = 0;
   std::vector<CutEdge> cuts_;
   DisjointSets classes_;
+  std::vector<std::uint64_t> sides_;      // per loop: bits of the loops with the root on their other side
+  std::vector<std::uint8_t> joined_;      // per loop: whether it bounds the piece
+  std::vector<std::uint32_t> whole_;      // roots that lie in it
   std::vector<std::uint32_t> own_loops_;  // of the piece
   std::vector<std::uint8_t> cut_shell_;   // per shell
 };

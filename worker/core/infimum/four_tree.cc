@@ -10,10 +10,13 @@ namespace affskel::core {
 
 class FourTree::Builder {
  public:
-  Builder(const std::vector<Box>& boxes, std::vector<Node>& nodes)
-      : boxes_(boxes), nodes_(nodes), order_(boxes.size()) {
+  Builder(const std::vector<Box>& boxes, std::vector<std::vector<Node>>& levels)
+      : boxes_(boxes), levels_(levels), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
-    build({0, static_cast<std::uint32_t>(order_.size())});
+    std::size_t depth = 1;
+    for (std::size_t held = 4; held < order_.size(); held *= 4) ++depth;
+    levels_.assign(depth, {});
+    build(0, {0, static_cast<std::uint32_t>(order_.size())});
   }
 
   std::vector<std::uint32_t> take_order() { return std::move(order_); }
@@ -52,17 +55,14 @@ class FourTree::Builder {
     }
   }
 
-  std::uint32_t build(const Range& range) {
-    const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
+  std::uint32_t build(std::size_t level, const Range& range) {
     Node node;
     constexpr float kNowhere = -std::numeric_limits<float>::infinity();  // as half a side
     for (Four& half : node.boxes.half) half = Four{kNowhere, kNowhere, kNowhere, kNowhere};
-    if (range.count <= 4) {
-      node.leaf = true;
+    if (level + 1 == levels_.size()) {
       for (std::uint32_t i = 0; i < range.count; ++i) {
         put(node, i, boxes_[order_[range.first + i]]);
-        node.child[i] = range.first + i;
+        node.child[i] = order_[range.first + i];
       }
     } else {
       std::uint32_t size = 0;
@@ -73,22 +73,21 @@ class FourTree::Builder {
           Box box;
           for (std::uint32_t i = 0; i < quarter.count; ++i) box.include(boxes_[order_[quarter.first + i]]);
           put(node, size, box);
-          node.child[size++] = build(quarter);
+          node.child[size++] = build(level + 1, quarter);
         }
       }
     }
-    nodes_[index] = node;
-    return index;
+    levels_[level].push_back(node);
+    return static_cast<std::uint32_t>(levels_[level].size() - 1);
   }
 
   const std::vector<Box>& boxes_;
-  std::vector<Node>& nodes_;
+  std::vector<std::vector<Node>>& levels_;
   std::vector<std::uint32_t> order_;
 };
 
 std::vector<std::uint32_t> FourTree::build(const std::vector<Box>& boxes) {
-  nodes_.clear();
-  return Builder(boxes, nodes_).take_order();
+  return Builder(boxes, levels_).take_order();
 }
 
 }  // namespace affskel::core

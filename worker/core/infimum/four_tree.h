@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/vec3.h"
@@ -53,48 +55,49 @@ class PlaneHeights {
   float offset_;
 };
 
-/// A tree of boxes, four to a node, for queries by planes.  Immutable once it is built.
+/// A tree of boxes, four to a node, for queries by planes; all its leaves are equally deep.  Immutable once it
+/// is built.
 class FourTree {
  public:
-  /// @return the items in the tree's order, in which visit() numbers them.
+  /// Memory of select(), used again.
+  using Lists = std::array<std::vector<std::uint32_t>, 2>;
+
+  /// @return the items in the tree's order: neighbours near each other.
   std::vector<std::uint32_t> build(const std::vector<Box>& boxes);
 
-  /// Lists the items, in ascending order, whose box meets(boxes) tells of with -1, not 0, of four that it is
-  /// asked for at once.  Without branches on what is met: no processor foresees them.
+  /// The items, in the tree's order, whose box meets(boxes) tells of with -1, not 0, of four that it is asked
+  /// for at once.  Level by level, without branches on what is met: no processor foresees them.
+  /// @return in one of the lists.
   template <class Meets>
-  void select(Meets meets, std::vector<std::uint32_t>& items) const {
-    std::array<std::uint32_t, 4 * 32> open;  // no tree is deeper: a node has a quarter of its parent's items
-    std::size_t count = 0, found = 0;
-    open[count++] = 0;
-    while (count > 0) {
-      const Node& node = nodes_[open[--count]];
-      const auto met = meets(node.boxes);
-      if (node.leaf) {
-        if (items.size() < found + 4) items.resize(2 * found + 64);
+  std::span<const std::uint32_t> select(Meets meets, Lists& lists) const {
+    lists[0].assign(1, 0);
+    std::size_t count = 1;
+    for (const std::vector<Node>& level : levels_) {
+      auto& [from, to] = lists;
+      if (to.size() < 4 * count) to.resize(4 * count);
+      std::size_t met_count = 0;
+      for (std::size_t n = 0; n < count; ++n) {
+        const Node& node = level[from[n]];
+        const auto met = meets(node.boxes);
         for (std::uint32_t i = 0; i < 4; ++i) {
-          items[found] = node.child[i];
-          found += static_cast<std::size_t>(met[i] & 1);
-        }
-      } else {
-        for (std::uint32_t i = 4; i-- > 0;) {
-          open[count] = node.child[i];
-          count += static_cast<std::size_t>(met[i] & 1);
+          to[met_count] = node.child[i];
+          met_count += static_cast<std::size_t>(met[i] & 1);
         }
       }
+      count = met_count;
+      from.swap(to);
     }
-    items.resize(found);
+    return {lists[0].data(), count};
   }
 
  private:
   struct Node {
     FourBoxes boxes;
-    std::array<std::uint32_t, 4>
-        child{};  // nodes, or the items of a leaf; where there are fewer, none is met
-    bool leaf = false;
+    std::array<std::uint32_t, 4> child{};  // of the next level, or items; where there are fewer, none is met
   };
 
   class Builder;
-  std::vector<Node> nodes_;
+  std::vector<std::vector<Node>> levels_;  // from the root
 };
 
 }  // namespace affskel::core

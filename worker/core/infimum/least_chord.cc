@@ -13,83 +13,24 @@
 #include "core/infimum/chord_piece.h"
 #include "core/infimum/saddle_search.h"
 #include "core/infimum/section_loops.h"
+#include "core/infimum/tilt_step.h"
 
 namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
-constexpr double kPromise = 4;        // what steps to come may gain, in gains of the next one
-constexpr int kMaxShorter = 6;        // of a step
-constexpr double kLongestStep = 0.5;  // of t
-constexpr double kMinGain = 1e-12;    // of the volume: a lesser decrease is none
-constexpr double kLastGain = 1e-8;    // of the volume: after it, the next would be below rounding
-constexpr double kBeyond = 1e-9;      // how far below a saddle it is tried whether a part joins there
-constexpr double kJump = 1e-9;        // of the volume
-constexpr double kAcross = 1e-6;      // how far below a saddle a descent across it starts
+constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
+constexpr int kMaxShorter = 6;          // of a step
+constexpr double kLeastGain = 1e-9;     // of the volume: a step that promises less is not made
+constexpr double kMinGain = 1e-12;      // of the volume: a lesser decrease is none
+constexpr double kLastGain = 1e-8;      // of the volume: after it, the next would be below rounding
+constexpr double kBeyond = 1e-9;        // how far below a saddle it is tried whether a part joins there
+constexpr double kJump = 1e-9;          // of the volume
+constexpr double kAcross = 1e-6;        // how far below a saddle a descent across it starts
 constexpr double kWorthwhile = 1.3;  // how much more than the least piece one across a saddle may be at first
-constexpr double kFlat = 1e-12;      // of the largest second derivative: a lesser one is none
-constexpr double kRaised = 1e-3;     // likewise, what takes its place
+constexpr double kWorth = 1e-7;      // of the least piece, by which another must be less
 constexpr double kParallel = 1e-9;   // sine between two saddles' z
-
-using Flat = std::array<double, 2>;
-
-double dot(const Flat& a, const Flat& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-double cross(const Flat& a, const Flat& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-double norm(const Flat& a) {
-  return std::sqrt(dot(a, a));
-}
-Flat times(double s, const Flat& a) {
-  return {s * a[0], s * a[1]};
-}
-
-// A step of t, and what f is to fall by to second order.
-struct Step {
-  Flat t{};
-  double gain = 0;
-};
-
-// A piece with its second derivatives.
-struct Stand : ChordPiece {
-  Hessian hessian{};
-};
-
-double bend(const Hessian& h, const Flat& t) {
-  return h[0] * t[0] * t[0] + 2 * h[1] * t[0] * t[1] + h[2] * t[1] * t[1];
-}
-
-Step step_along(const Stand& at, Flat t) {
-  const double length = norm(t);
-  if (length > kLongestStep) t = times(kLongestStep / length, t);
-  return {t, -(dot(at.gradient, t) + 0.5 * bend(at.hessian, t))};
-}
-
-// Newton's step; where f is not convex its second derivative is raised until it is.
-Step free_step(const Stand& at) {
-  const auto& [a, b, c] = at.hessian;
-  const double mean = 0.5 * (a + c), spread = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
-  const double least = mean - spread, most = std::max(std::abs(mean) + spread, kFlat * at.area);
-  const double more = least > kFlat * most ? 0 : kRaised * most - least;
-  const double aa = a + more, cc = c + more, det = aa * cc - b * b;
-  const Flat& g = at.gradient;
-  if (det > 0) return step_along(at, {-(cc * g[0] - b * g[1]) / det, -(aa * g[1] - b * g[0]) / det});
-  const double size = norm(g);
-  return size > 0 ? step_along(at, times(-kLongestStep / size, g)) : Step{};
-}
-
-// Along the great circle of a saddle.
-Step step_round(const Stand& at, const Flat& z) {
-  const double length = norm(z);
-  const Flat e = {-z[1] / length, z[0] / length};
-  const double first = dot(at.gradient, e), second = bend(at.hessian, e);
-  if (first == 0) return {};
-  const bool convex = second * kLongestStep > std::abs(first);
-  return step_along(at, times(convex ? -first / second : first > 0 ? -kLongestStep : kLongestStep, e));
-}
 
 }  // namespace
 
@@ -99,8 +40,12 @@ class ChordDescent::Work {
 
   LeastChord descend(const Vec3& x, const LeastChord& start, const DescentBound& bound) {
     x_ = x;
-    LeastChord least = go_down(start, bound);
-    if (!(least.erosion < bound.erosion * (1 - kLastGain))) return {};
+    const LeastChord least = go_down(start, bound);
+    return least.erosion < bound.erosion * (1 - kLastGain) ? least : LeastChord{};
+  }
+
+  LeastChord look_across(const Vec3& x, LeastChord least) {
+    x_ = x;
     while (true) {
       const LeastChord lower = across(least);
       if (!(lower.erosion < least.erosion * (1 - kLastGain))) return least;
@@ -133,10 +78,9 @@ class ChordDescent::Work {
     if (!valid(piece_) || piece_.volume > bound.first) return {};
     piece_.hessian = finder_.hessian();
     for (int n = 0; n < kMaxSteps; ++n) {
-      const Step step = next_step();
-      if (piece_.volume - kPromise * step.gain > bound.erosion) return {};
-      if (!(step.gain > kMinGain * piece_.volume) || !go(step)) break;
-      if (step.gain < kLastGain * piece_.volume) break;
+      const TiltStep step = next_step();
+      if (piece_.volume - bound.promise * step.gain > bound.erosion) return {};
+      if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
     }
     return result(piece_.area + multipliers());
   }
@@ -155,16 +99,44 @@ class ChordDescent::Work {
       const Vec3 y = from_x(least.saddles[i]);
       const Vec3 d = touching(least.normal - (kAcross / core::dot(y, y)) * y);
       const double none = std::numeric_limits<double>::infinity();
-      if (core::dot(d, y) < -kTouchHeight) keep(go_down(d, {none, best.erosion}));
+      if (core::dot(d, y) < -kTouchHeight)
+        keep(go_down(d, {none, best.erosion * (1 - kWorth), kAcrossPromise}));
     }
     const std::vector<SaddleSearch::Saddle> others = saddles_.just_below(x_, least.normal);
     for (const SaddleSearch::Saddle& saddle : others) {
-      LeastChord start;
-      start.normal = least.normal;
-      start.saddles[0] = saddle.vertex;
-      keep(go_down(start, {kWorthwhile * best.erosion, best.erosion}));
+      const Vec3 d = touch_beside(saddle.vertex, least);
+      keep(go_down(d, {kWorthwhile * best.erosion, best.erosion * (1 - kWorth), kAcrossPromise}));
     }
     return best;
+  }
+
+  // The plane nearest to a least one that touches a saddle and lies above none of those that are held there: it
+  // touches one of them, too, where it must.
+  Vec3 touch_beside(std::uint32_t saddle, const LeastChord& least) {
+    active_.assign(1, saddle);
+    Vec3 best = touching(least.normal);
+    if (holds(best, least)) return best;
+    double nearest = -1;
+    std::uint32_t second = kNoSaddle;
+    for (const std::uint32_t held : least.saddles) {
+      if (held == kNoSaddle) continue;
+      active_ = {saddle, held};
+      const Vec3 d = touching(least.normal);
+      const double cosine = core::dot(d, least.normal);
+      if (cosine <= nearest || !holds(d, least)) continue;
+      nearest = cosine;
+      best = d;
+      second = held;
+    }
+    active_.assign(1, saddle);
+    if (second != kNoSaddle) active_.push_back(second);
+    return best;
+  }
+
+  bool holds(const Vec3& d, const LeastChord& least) const {
+    return std::all_of(least.saddles.begin(), least.saddles.end(), [&](std::uint32_t s) {
+      return s == kNoSaddle || core::dot(d, from_x(s)) >= -kTouchHeight;
+    });
   }
 
   LeastChord result(double slope) const {
@@ -216,7 +188,7 @@ class ChordDescent::Work {
   }
 
   // Lets go of saddles that hold nothing back, and steps along those that remain.
-  Step next_step() {
+  TiltStep next_step() {
     if (active_.size() == 2) {
       const Flat a = flat(active_[0]), b = flat(active_[1]);
       if (std::abs(cross(a, b)) <= kParallel * norm(a) * norm(b)) {
@@ -230,7 +202,7 @@ class ChordDescent::Work {
     if (active_.empty()) return free_step(piece_);
     const Flat z = flat(active_[0]);
     if (dot(piece_.gradient, z) < 0) {
-      const Step free = free_step(piece_);
+      const TiltStep free = free_step(piece_);
       if (dot(free.t, z) > 0) {
         active_.clear();
         return free;
@@ -239,7 +211,7 @@ class ChordDescent::Work {
     return step_round(piece_, z);
   }
 
-  Vec3 tilted(const Step& step, double share) const {
+  Vec3 tilted(const TiltStep& step, double share) const {
     return d_ + ((share * step.t[0]) * piece_.u + (share * step.t[1]) * piece_.w);
   }
 
@@ -256,7 +228,7 @@ class ChordDescent::Work {
   }
 
   // Makes the step, or as much of it as lets f fall; false when none does.
-  bool go(const Step& step) {
+  bool go(const TiltStep& step) {
     const Vec3 end = touching(tilted(step, 1));
     const ChordPiece there = find(end);
     if (falls(there)) {
@@ -268,7 +240,7 @@ class ChordDescent::Work {
   }
 
   // f is smooth up to `share` of the step, and does not fall as far as there.
-  bool go_shorter(const Step& step, double share, const ChordPiece& end) {
+  bool go_shorter(const TiltStep& step, double share, const ChordPiece& end) {
     if (step.gain < kLastGain * piece_.volume) return false;
     ChordPiece there = end;
     for (int n = 0; n < kMaxShorter; ++n) {
@@ -283,7 +255,7 @@ class ChordDescent::Work {
   }
 
   // The least of the parabola through f and its slope here and f there, as a share of the way.
-  double shorter(const Step& step, double share, const ChordPiece& there) const {
+  double shorter(const TiltStep& step, double share, const ChordPiece& there) const {
     if (!valid(there)) return 0.25;
     const double slope = share * dot(piece_.gradient, step.t);
     const double rise = there.volume - piece_.volume - slope;
@@ -291,14 +263,14 @@ class ChordDescent::Work {
   }
 
   // How many of the meetings lie where the plane is now, within rounding.
-  std::size_t meetings_here(const Step& step) const {
+  std::size_t meetings_here(const TiltStep& step) const {
     const double fall = -dot(piece_.gradient, step.t);
     std::size_t here = 0;
     while (here < meetings_.size() && meetings_[here].at * fall <= kLastGain * piece_.volume) ++here;
     return here;
   }
 
-  bool go_to_meeting(const Step& step, const ChordPiece& end) {
+  bool go_to_meeting(const TiltStep& step, const ChordPiece& end) {
     const std::size_t here = meetings_here(step);
     std::size_t falling = here, rising = meetings_.size();  // how many are passed
     Vec3 best;
@@ -369,6 +341,10 @@ ChordDescent::~ChordDescent() = default;
 
 LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start, const DescentBound& bound) {
   return work_->descend(x, start, bound);
+}
+
+LeastChord ChordDescent::look_across(const Vec3& x, LeastChord least) {
+  return work_->look_across(x, least);
 }
 
 std::uint64_t ChordDescent::evaluations() const {

@@ -29,6 +29,7 @@ struct LeastChord {
 struct DescentBound {
   double first = std::numeric_limits<double>::infinity();    ///< the first piece is greater
   double erosion = std::numeric_limits<double>::infinity();  ///< the least one is going to be greater
+  double promise = 4;  ///< what steps to come may gain, in gains of the next one
 };
 
 /// Goes down from one plane to another until none near it has a lesser piece.
@@ -48,10 +49,13 @@ class ChordDescent {
   ChordDescent(const ChordDescent&) = delete;
   ChordDescent& operator=(const ChordDescent&) = delete;
 
-  /// Goes down from the plane through x nearest to `start`'s that touches start's saddles, and looks across
-  /// the saddles near the least piece for lesser ones.  Erosion infinite where x lies outside, within
-  /// rounding, and when the way down does not promise to lead below the bound.
+  /// Goes down from the plane through x nearest to `start`'s that touches start's saddles.  Erosion infinite
+  /// where x lies outside, within rounding, and when the way down does not promise to lead below the bound.
   LeastChord descend(const Vec3& x, const LeastChord& start, const DescentBound& bound = {});
+
+  /// Looks across the saddles near a least piece for lesser ones, and from these again.
+  /// @return the least piece found; `least` itself where there is no lesser one.
+  LeastChord look_across(const Vec3& x, LeastChord least);
 
   std::uint64_t evaluations() const;  ///< pieces found so far
 

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <utility>
 
+#include "core/base/basis.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/double_sum.h"
+#include "core/base/unit.h"
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/mesh_topology.h"
@@ -14,7 +17,8 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kUnit = 0x1p62;  // see SurfaceSums
+constexpr double kUnit = 0x1p62;     // see SurfaceSums
+constexpr double kLevelTurn = 1e-9;  // volume that edges of unit length span: less is level within rounding
 
 std::uint64_t quantised(double value) {
   return static_cast<std::uint64_t>(std::llrint(value * kUnit));
@@ -28,8 +32,7 @@ DoubleSum restored(std::uint64_t value) {
   return {hi / kUnit, lo / kUnit};
 }
 
-// The vertices in preorder of trees that are found breadth first, so that their branches stay short; parents
-// by old numbers.
+// The vertices in preorder of trees that are found breadth first, so that their branches stay short.
 struct Preorder {
   std::vector<std::uint32_t> order, parent;
 };
@@ -78,10 +81,15 @@ double SurfaceSums::volume_from(const Vec3& x) const {
 
 PieceInput::PieceInput(const Solid& solid, unsigned threads) {
   number_anew(solid);
-  find_mates_if_closed(mesh, threads, mates);
+  find_mates_if_closed(mesh, threads, mates_);
   sum_up();
   find_handles();
+  find_passages();
   find_rings();
+  find_saddles();
+  is_ball = shells.size() == 1 && shells[0].handles.empty() && crossings.empty();
+  mates_ = {};
+  parent_ = {};
   std::vector<std::uint8_t> bounded(solid.solid_volume.size(), 0);
   for (const Shell& shell : shells) {
     if (bounded[shell.solid] != 0 && !rays) rays.emplace(mesh, threads);
@@ -91,37 +99,43 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
 }
 
 void PieceInput::number_anew(const Solid& solid) {
-  const std::vector<std::uint32_t> triangle_order = tree.build(boxes_of(solid.mesh));
-  const Preorder vertices = preorder_of(solid.mesh);
-  std::vector<std::uint32_t> number(vertices.order.size()), triangle_number(triangle_order.size());
-  for (std::uint32_t v = 0; v < number.size(); ++v) number[vertices.order[v]] = v;
+  const std::vector<std::uint32_t> triangle_order = FourTree().build(boxes_of(solid.mesh));
+  std::vector<std::uint32_t> number(solid.mesh.points.size(), kNone), triangle_number(triangle_order.size());
   mesh.points.reserve(number.size());
-  parent.reserve(number.size());
-  for (const std::uint32_t v : vertices.order) {
-    mesh.points.push_back(solid.mesh.points[v]);
-    parent.push_back(number[vertices.parent[v]]);
-  }
   mesh.triangles.reserve(triangle_order.size());
   for (const std::uint32_t t : triangle_order) {
     triangle_number[t] = static_cast<std::uint32_t>(mesh.triangles.size());
-    const Triangle& c = solid.mesh.triangles[t];
-    mesh.triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
+    Triangle& c = mesh.triangles.emplace_back(solid.mesh.triangles[t]);
+    for (std::uint32_t& v : c) {
+      if (number[v] == kNone) {
+        number[v] = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.push_back(solid.mesh.points[v]);
+      }
+      v = number[v];
+    }
   }
-  end.resize(number.size());
-  shell_of.resize(number.size());
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    end[v] = v + 1;
-    if (parent[v] == v) shells.push_back({v, 0, {}});
-    shell_of[v] = static_cast<std::uint32_t>(shells.size() - 1);
-  }
-  for (std::uint32_t v = static_cast<std::uint32_t>(number.size()); v-- > 0;) {
-    end[parent[v]] = std::max(end[parent[v]], end[v]);
-  }
+  plant_trees();
   for (std::uint32_t t = 0; t < triangle_order.size(); ++t) {
     shells[shell_of[mesh.triangles[t][0]]].solid =
         solid.shells[solid.triangle_shell[triangle_order[t]]].solid;
   }
   if (!solid.crossings.empty()) add_crossings(solid, triangle_number);
+}
+
+void PieceInput::plant_trees() {
+  Preorder vertices = preorder_of(mesh);
+  parent_ = std::move(vertices.parent);
+  branches.resize(mesh.points.size());
+  shell_of.resize(mesh.points.size());
+  for (std::uint32_t i = 0; i < vertices.order.size(); ++i) {
+    const std::uint32_t v = vertices.order[i];
+    branches[v] = {i, 1};
+    if (parent_[v] == v) shells.push_back({v, 0, {}});
+    shell_of[v] = static_cast<std::uint32_t>(shells.size() - 1);
+  }
+  for (auto v = vertices.order.rbegin(); v != vertices.order.rend(); ++v) {
+    if (parent_[*v] != *v) branches[parent_[*v]].count += branches[*v].count;
+  }
 }
 
 // Solids that pass through each other are one from here on.
@@ -140,53 +154,134 @@ void PieceInput::add_crossings(const Solid& solid, const std::vector<std::uint32
 
 void PieceInput::sum_up() {
   constexpr double kThird = 1.0 / 3;
-  area_vector.reserve(mesh.triangles.size());
-  own.reserve(mesh.triangles.size());
-  before.resize(mesh.points.size() + 1);
+  faces.reserve(mesh.triangles.size());
+  std::vector<SurfaceSums> before(mesh.points.size() +
+                                  1);  // over the triangles of vertices before, in preorder
   for (const Triangle& c : mesh.triangles) {
     const Vec3& p = mesh.points[c[0]];
     const Vec3 area = 0.5 * cross(mesh.points[c[1]] - p, mesh.points[c[2]] - p);
-    area_vector.push_back(area);
-    own.push_back({{quantised(kThird * dot(area, p)), quantised(kThird * area.x), quantised(kThird * area.y),
-                    quantised(kThird * area.z)}});
-    before[c[0] + 1] += own.back();
+    faces.push_back({area,
+                     {{quantised(kThird * dot(area, p)), quantised(kThird * area.x),
+                       quantised(kThird * area.y), quantised(kThird * area.z)}}});
+    before[branches[c[0]].first + 1] += faces.back().sums;
   }
   for (std::size_t v = 1; v < before.size(); ++v) before[v] += before[v - 1];
+  below.resize(mesh.points.size());
+  for (std::size_t v = 0; v < below.size(); ++v) {
+    below[v] = before[branches[v].end()];
+    below[v] -= before[branches[v].first];
+  }
 }
 
 // A tree of triangles across edges that the vertices' tree does not use; what is left of the edges goes round
 // the handles.
 void PieceInput::find_handles() {
   DisjointSets joined(mesh.triangles.size());
-  for (std::uint32_t h = 0; h < mates.size(); ++h) {
-    if (mates[h] < h) continue;
-    const std::uint32_t t = h / 3;
-    const std::uint32_t a = mesh.triangles[t][h % 3], b = mesh.triangles[t][(h + 1) % 3];
-    if (parent[a] == b || parent[b] == a) continue;
-    if (joined.unite(t, mates[h] / 3)) continue;
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) edges.push_back({v, parent_[v], kNone, kNone});
+  for (std::uint32_t h = 0; h < mates_.size(); ++h) {
+    if (mates_[h] < h) continue;
+    const std::uint32_t a = begin_of(h), b = end_of(h);
+    if (parent_[a] == b || parent_[b] == a) continue;
+    if (joined.unite(h / 3, mates_[h] / 3)) continue;
     shells[shell_of[a]].handles.push_back({a, b});
-    at_handle.resize(mates.size(), 0);
-    at_handle[h] = at_handle[mates[h]] = 1;
+    edges.push_back({a, b, h, mates_[h]});
   }
 }
 
-void PieceInput::find_rings() {
-  owner.assign(mesh.points.size(), PieceInput::kNone);
-  std::vector<std::uint32_t> start(mesh.points.size());  // half-edges that leave the vertex
-  for (std::uint32_t h = 0; h < mates.size(); ++h) {
-    start[mesh.triangles[h / 3][h % 3]] = h;
-    owner[mesh.triangles[h / 3][h % 3]] = h / 3;
+void PieceInput::find_passages() {
+  passages.resize(mates_.size());
+  for (std::uint32_t h = 0; h < mates_.size(); ++h) {
+    const std::uint32_t back = mates_[h], t = back / 3, i = back % 3;
+    passages[h] = {mesh.triangles[t][(i + 2) % 3], 3 * t + (i + 1) % 3, 3 * t + (i + 2) % 3, kNone};
+    Edge& to_parent = edges[begin_of(h)];
+    if (to_parent.end != end_of(h)) continue;
+    to_parent.there = h;
+    to_parent.back = back;
   }
+  std::vector<Box> boxes(edges.size());
+  for (std::uint32_t n = 0; n < edges.size(); ++n) {
+    const Edge& edge = edges[n];
+    boxes[n].include(mesh.points[edge.begin]);
+    boxes[n].include(mesh.points[edge.end]);
+    if (edge.there != kNone) passages[edge.there].edge = passages[edge.back].edge = n;
+  }
+  edge_tree.build(boxes);
+}
+
+void PieceInput::find_rings() {
+  std::vector<std::uint32_t> start(mesh.points.size());  // half-edges that leave the vertex
+  for (std::uint32_t h = 0; h < mates_.size(); ++h) start[begin_of(h)] = h;
   rings = {mesh.points.size(), [&](const auto& put) {
              for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
                std::uint32_t h = start[v];
                do {
-                 put(v, mesh.triangles[h / 3][(h + 1) % 3]);
+                 put(v, end_of(h));
                  const std::uint32_t into = h / 3 * 3 + (h + 2) % 3;  // the half-edge of the triangle into v
-                 h = mates[into];
+                 h = mates_[into];
                } while (h != start[v]);
              }
            }};
+}
+
+// No plane through such a vertex has more than one stretch of its neighbours below.
+bool PieceInput::is_convex(std::uint32_t vertex) const {
+  if (!crosses.empty() && crosses[vertex] != 0) return false;
+  const auto ring = rings[vertex];
+  int left = 0, right = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const std::array<Vec3, 3> edge = {unit(mesh.points[ring[i]] - mesh.points[vertex]),
+                                      unit(mesh.points[ring[(i + 1) % ring.size()]] - mesh.points[vertex]),
+                                      unit(mesh.points[ring[(i + 2) % ring.size()]] - mesh.points[vertex])};
+    const double turn = dot(edge[0], cross(edge[1], edge[2]));
+    left += turn > kLevelTurn;
+    right += turn < -kLevelTurn;
+  }
+  return std::max(left, right) == static_cast<int>(ring.size());
+}
+
+// With the surface's normal n as the pole, let ring vertices have azimuths that go once round, r their distance
+// from the pole's axis and h their height.  A plane of inclination f puts those below whose
+// r sin(f) cos(azimuth - the plane's) + h cos(f) < 0.  Without the heights that is one stretch of the ring; they
+// change it only at vertices whose |cos| is at most c = cot(f) max |h / r|, near the stretch's two ends.  Where
+// all gaps between azimuths are wider than 2 asin(c), an end has one such vertex at most: one stretch remains.
+PieceInput::Saddle PieceInput::saddle_at(std::uint32_t vertex) const {
+  constexpr double kSlack = 1.01, kShortest = 1e-6;
+  const auto ring = rings[vertex];
+  const std::size_t count = ring.size();
+  Saddle saddle;
+  saddle.vertex = vertex;
+  const auto edge = [&](std::size_t i) { return mesh.points[ring[i % count]] - mesh.points[vertex]; };
+  Vec3 sum;
+  for (std::size_t i = 0; i < count; ++i) sum = sum + cross(edge(i), edge(i + 1));
+  saddle.normal = unit(sum);
+  Vec3 u, w;
+  make_basis(saddle.normal, u, w);
+  double steepest = 0, least_gap = 1;  // h / r; 1 - cos
+  int turns = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 e = edge(i), next = edge(i + 1);
+    const double a = dot(u, e), b = dot(w, e), next_a = dot(u, next), next_b = dot(w, next);
+    const double r = std::sqrt(a * a + b * b), next_r = std::sqrt(next_a * next_a + next_b * next_b);
+    if (!(r > kShortest && next_r > kShortest) || a * next_b - b * next_a <= 0) return saddle;
+    steepest = std::max(steepest, std::abs(dot(saddle.normal, e)) / r);
+    least_gap = std::min(least_gap, 1 - (a * next_a + b * next_b) / (r * next_r));
+    turns += b < 0 && next_b >= 0;
+  }
+  if (turns != 1) return saddle;
+  const double tangent_squared =
+      kSlack * steepest * steepest / (0.5 * least_gap) + (kSlack - 1) * (kSlack - 1);
+  saddle.cosine = 1 / std::sqrt(1 + tangent_squared);
+  return saddle;
+}
+
+void PieceInput::find_saddles() {
+  std::vector<Box> boxes;
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    if (is_convex(v)) continue;
+    saddles.push_back(saddle_at(v));
+    boxes.emplace_back().include(mesh.points[v]);
+  }
+  saddle_tree.build(boxes);
 }
 
 }  // namespace affskel::core

@@ -36,8 +36,8 @@ struct SurfaceSums {
 
 /// What all planes through a solid share, for PieceFinder.  Immutable; threads share it.
 ///
-/// Vertices are numbered in preorder of a spanning tree of each shell: the vertices below one in the tree are
-/// [v, end[v]).  A set of vertices that is connected in the tree is a difference of such intervals, so that
+/// Vertices and triangles are numbered anew, so that neighbours are near in memory.  Each shell has a spanning
+/// tree of its vertices; in its preorder those below one are an interval.  A set of vertices that is connected in the tree is a difference of such intervals, so that
 /// its sums are known from the tree edges that leave it.
 struct PieceInput {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -45,45 +45,90 @@ struct PieceInput {
   struct Shell {
     std::uint32_t root = 0;   ///< its first vertex
     std::uint32_t solid = 0;  ///< the solid it bounds; the least one of those that pass through each other
-    /// Two for every handle: with them the tree's edges cut the shell into a disc (tree-cotree, Eppstein 2003).
+    /// Two edges for every handle: with them the tree's edges cut the shell into a disc (tree-cotree, Eppstein
+    /// 2003).
     std::vector<Segment> handles;
   };
 
   explicit PieceInput(const Solid& solid, unsigned threads = 1);
+
+  std::uint32_t begin_of(std::uint32_t half_edge) const {
+    return mesh.triangles[half_edge / 3][half_edge % 3];
+  }
+  std::uint32_t end_of(std::uint32_t half_edge) const {
+    return mesh.triangles[half_edge / 3][(half_edge + 1) % 3];
+  }
   PieceInput(const PieceInput&) = delete;
   PieceInput& operator=(const PieceInput&) = delete;
 
-  /// Sums over the triangles whose first corner is below `vertex` in the tree, or is `vertex` itself.
-  SurfaceSums below(std::uint32_t vertex) const {
-    SurfaceSums sums = before[end[vertex]];
-    return sums -= before[vertex];
-  }
+  /// Of a vertex: itself and those below it in the tree, in preorder.
+  struct Branch {
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t end() const { return first + count; }
+    bool holds(const Branch& other) const { return other.first - first < count; }
+  };
 
-  Mesh mesh;                            ///< the solid's, numbered anew
-  std::vector<std::uint32_t> mates;     ///< per half-edge 3 t + i
-  std::vector<Vec3> area_vector;        ///< per triangle, outward
-  std::vector<SurfaceSums> own;         ///< per triangle
-  std::vector<std::uint32_t> parent;    ///< per vertex; of a root itself
-  std::vector<std::uint32_t> end;       ///< per vertex
-  std::vector<SurfaceSums> before;      ///< per vertex, and one more: over the triangles of those before it
+  struct Face {
+    Vec3 area;  ///< outward
+    SurfaceSums sums;
+  };
+
+  /// How the rim of a section goes on where it passes a half-edge, which rises from below the plane, into the
+  /// triangle beyond.
+  struct Passage {
+    std::uint32_t apex = 0;        ///< the corner that is not on the edge
+    std::uint32_t when_above = 0;  ///< the half-edge that it leaves by when the apex is above the plane
+    std::uint32_t when_below = 0;
+    std::uint32_t edge = kNone;  ///< its number among `edges`
+  };
+
+  Mesh mesh;                      ///< the solid's, numbered anew
+  std::vector<Passage> passages;  ///< per half-edge 3 t + i
+  std::vector<Face> faces;        ///< per triangle
+  std::vector<Branch> branches;   ///< per vertex
+  /// Per vertex: sums over the triangles whose first corner is below it in the tree, or is the vertex itself.
+  std::vector<SurfaceSums> below;
+  struct Edge {
+    std::uint32_t begin = 0, end = 0;           ///< vertices
+    std::uint32_t there = kNone, back = kNone;  ///< its half-edges; of a root none
+  };
+
+  /// Those from a vertex to its parent, by vertices; then those of Shell::handles.
+  std::vector<Edge> edges;
   std::vector<std::uint32_t> shell_of;  ///< per vertex
   std::vector<Shell> shells;
-  std::vector<std::uint8_t> at_handle;  ///< per half-edge: of an edge of Shell::handles; empty without any
-  FourTree tree;                        ///< over the triangles, which are numbered in its order
-  Groups<std::uint32_t> rings;          ///< per vertex: its neighbours, in their order round it
-  std::vector<std::uint32_t> owner;     ///< per vertex: a triangle of its
+  FourTree edge_tree;  ///< over `edges`; a root is by itself
+  /// A vertex at which parts of a piece may meet: where neither the solid is convex nor the outside.
+  struct Saddle {
+    std::uint32_t vertex = 0;
+    Vec3 normal;  ///< of the surface there, unit
+    double cosine =
+        0;  ///< the normals of all planes at which parts meet make no less with it, or its opposite
+  };
+  std::vector<Saddle> saddles;
+  FourTree saddle_tree;         ///< over `saddles`
+  Groups<std::uint32_t> rings;  ///< per vertex: its neighbours, in their order round it
   /// Pairs of triangles that pass through each other.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<std::uint8_t> crosses;  ///< per vertex: at such a triangle; empty where there is none
+  bool is_ball = false;               ///< one shell without handles that does not pass through itself
   double volume = 0;                  ///< of all solids, scaled units
   std::optional<RayShooter> rays;     ///< only where a solid has several shells
 
  private:
   void number_anew(const Solid& solid);
   void add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number);
+  void plant_trees();
   void sum_up();
   void find_handles();
+  void find_passages();
   void find_rings();
+  void find_saddles();
+  bool is_convex(std::uint32_t vertex) const;
+  Saddle saddle_at(std::uint32_t vertex) const;
+
+  std::vector<std::uint32_t> mates_;   // per half-edge; until the others are made
+  std::vector<std::uint32_t> parent_;  // per vertex, of a root itself; likewise
 };
 
 }  // namespace affskel::core

@@ -14,11 +14,11 @@
 namespace affskel::core {
 
 /// What refine() takes in memory for every sample point, bytes.
-constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 24;
+constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 25;
 
 struct RefineOptions {
   unsigned threads = 1;                       ///< >= 1; the result does not depend on it
-  int most_rounds = base::kMostRefineRounds;  ///< 0 .. 254
+  int most_rounds = base::kMostRefineRounds;  ///< 3 .. 254; with fewer, points keep their seeds
 };
 
 struct RefineCost {
@@ -29,9 +29,10 @@ struct RefineCost {
 /// Per sample point the least piece over all directions, as far as it is found: E as the definition has it
 /// (Zografos 2003, section 2.2.2: an infimum; it is a limit where the optimal plane touches a saddle).
 ///
-/// Every point goes down from the direction that its seed was found with (ChordDescent).  Then points offer
-/// their planes to their neighbours on the lattice, in rounds, until no offer leads lower: as in PatchMatch
-/// (Barnes et al. 2009), but all points of a round at once, from what the round before left.  So the result is
+/// One point in eight goes down from the direction that its seed was found with (ChordDescent); the others follow
+/// their neighbours (Refinement).  Then points offer their planes to their neighbours on the lattice, in rounds,
+/// until no offer leads lower: as in PatchMatch (Barnes et al. 2009), but all points of a round at once, from what
+/// the round before left.  So the result is
 /// a function of solid, lattice and seeds.  It is never above the seeds; that it is the infimum is not proven
 /// at every point.
 ///

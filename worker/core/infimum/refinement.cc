@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/unit.h"
 #include "core/lattice/lattice_edges.h"
 
 namespace affskel::core {
@@ -16,11 +17,20 @@ constexpr std::size_t kBlock = 64;  // points that a thread takes at once
 constexpr double kSeedRounding = 1e-9;  // seeds have 36 bits
 
 // When a neighbour's plane is worth a descent, by the volume E + |grad E| n.(x - y) that it promises at x.
-constexpr double kPromised = 1.2;    // at most so many times what is known
+constexpr double kPromised = 1.02;   // at most so many times what is known,
+constexpr double kBend = 2;          // but for so much of E times the square of its relative change
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
 constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
-constexpr double kLess = 1e-10;      // by which a piece must be less to take the place of another
+constexpr double kLess = 1e-7;       // by which a piece must be less to take the place of another
+constexpr double kSeedHope = 2;      // how many times what neighbours led to a seed may be
+
+// DescentBound::promise: of a point that has nothing yet but its seed, and of others.
+constexpr double kFollowPromise = 4, kOfferPromise = 1;
+
+bool alike(const LeastChord& a, const LeastChord& b) {
+  return dot(a.normal, b.normal) > kAlike;
+}
 
 }  // namespace
 
@@ -30,7 +40,8 @@ Refinement::Refinement(const PieceInput& input, const Lattice& lattice, unsigned
       threads_(threads),
       around_(lattice.points),
       least_(lattice.points),
-      round_(lattice.points, 0) {
+      round_(lattice.points, 0),
+      first_(lattice.points, 0) {
   std::vector<std::uint32_t> all(lattice.points);
   std::iota(all.begin(), all.end(), 0U);
   places_ = lattice_places(lattice, all);
@@ -39,6 +50,7 @@ Refinement::Refinement(const PieceInput& input, const Lattice& lattice, unsigned
     around_[x][2 * axis] = y;
     around_[y][2 * axis + 1] = x;
   });
+  find_first_rounds();
 }
 
 std::uint64_t Refinement::evaluations() const {
@@ -57,9 +69,7 @@ std::vector<RefinedPoint> Refinement::descend(const DirectionSet& directions, co
     start.normal = directions[seed.direction];
     start.erosion = seed.erosion;
     start.area = start.slope = seed.area;
-    LeastChord least = descent.descend(at(p), start);
-    if (!(least.erosion <= start.erosion * (1 + kSeedRounding))) least = start;
-    found[i] = {p, least};
+    found[i] = {p, first_[p] == 0 ? from_seed(p, start, descent) : start};
   });
   return found;
 }
@@ -70,7 +80,9 @@ std::vector<RefinedPoint> Refinement::improve(int round, PointRange range, Execu
   each_of(todo.size(), context, [&](std::size_t i, ChordDescent& descent) {
     found[i] = {todo[i], least_of_offers(round, todo[i], descent)};
   });
-  std::erase_if(found, [&](const RefinedPoint& f) { return !(f.least.erosion < least_[f.point].erosion); });
+  std::erase_if(found, [&](const RefinedPoint& f) {
+    return first_[f.point] < round && !(f.least.erosion < least_[f.point].erosion);
+  });
   return found;
 }
 
@@ -91,36 +103,107 @@ void Refinement::each_of(std::size_t count, ExecutionContext& context, const Bod
   });
 }
 
-// The points with a neighbour that the round before changed.
+// A point begins in the round after the last of the neighbours that have fewer odd indices.
+void Refinement::find_first_rounds() {
+  const auto odd = [&](std::uint32_t p) {
+    return (places_[p][0] & 1U) + (places_[p][1] & 1U) + (places_[p][2] & 1U);
+  };
+  for (unsigned odds = 1; odds <= 3; ++odds) {
+    for (std::uint32_t p = 0; p < around_.size(); ++p) {
+      if (odd(p) != odds) continue;
+      for (const std::uint32_t q : around_[p]) {
+        if (q != kNobody && odd(q) < odds) first_[p] = std::max<std::uint8_t>(first_[p], first_[q] + 1);
+      }
+    }
+  }
+}
+
+// Whether the point has yet to hear of what the neighbour has.
+bool Refinement::offers_to(std::uint32_t q, std::uint32_t p, int round) const {
+  return q != kNobody && first_[q] < round && (first_[p] == round || round_[q] + 1 == round);
+}
+
 std::vector<std::uint32_t> Refinement::offered(int round, PointRange range) const {
   std::vector<std::uint32_t> todo;
   for (std::uint32_t p = range.begin; p < range.end; ++p) {
+    if (first_[p] > round) continue;
     const bool any = std::any_of(around_[p].begin(), around_[p].end(),
-                                 [&](std::uint32_t q) { return q != kNobody && round_[q] + 1 == round; });
-    if (any) todo.push_back(p);
+                                 [&](std::uint32_t q) { return offers_to(q, p, round); });
+    if (any || first_[p] == round) todo.push_back(p);
   }
   return todo;
 }
 
+// A point that begins, begins with its seed.
+LeastChord Refinement::from_seed(std::uint32_t p, const LeastChord& seed, ChordDescent& descent) const {
+  const Vec3 x = at(p);
+  const LeastChord least = descent.descend(x, seed);
+  return least.erosion <= seed.erosion * (1 + kSeedRounding) ? descent.look_across(x, least) : seed;
+}
+
+// What the neighbours offer, what promises least first.  Two opposite ones of one basin offer one plane.
+std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<Offer, 6>& offers) const {
+  const Vec3 x = at(p);
+  const auto promised = [&](std::uint32_t q) {
+    return least_[q].erosion + least_[q].slope * dot(least_[q].normal, x - at(q));
+  };
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::uint32_t q = around_[p][i], opposite = around_[p][i ^ 1U];
+    if (!offers_to(q, p, round)) continue;
+    Offer& offer = offers[count++];
+    offer.start = least_[q];
+    offer.promise = promised(q);
+    const double change = offer.promise / least_[q].erosion - 1;
+    offer.doubt = kBend * change * change * least_[q].erosion;
+    if (!offers_to(opposite, p, round) || least_[opposite].saddles != offer.start.saddles ||
+        !alike(least_[opposite], offer.start)) {
+      continue;
+    }
+    offer.start.normal = unit(offer.start.normal + least_[opposite].normal);
+    offer.promise = 0.5 * (offer.promise + promised(opposite));
+    i |= 1U;
+  }
+  std::stable_sort(offers.begin(), offers.begin() + static_cast<std::ptrdiff_t>(count),
+                   [](const Offer& a, const Offer& b) { return a.promise < b.promise; });
+  return count;
+}
+
 LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent& descent) const {
   const Vec3 x = at(p);
-  LeastChord best = least_[p];
-  std::array<const LeastChord*, 7> tried{&least_[p]};
-  std::size_t tries = 1;
-  for (const std::uint32_t q : around_[p]) {
-    if (q == kNobody || round_[q] + 1 != round) continue;
-    const LeastChord& offer = least_[q];
-    const double promise = offer.erosion + offer.slope * dot(offer.normal, x - at(q));
-    const bool less = promise < kNoBetter * best.erosion;
+  const LeastChord& start = least_[p];
+  const bool begins = first_[p] == round;
+  LeastChord best = start;
+  bool lower = false;
+  std::array<Offer, 6> offers;
+  const std::size_t count = list_offers(round, p, offers);
+  std::array<const LeastChord*, 7> tried{&start};
+  std::size_t tries = begins ? 0 : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Offer& offer = offers[i];
+    const bool less = offer.promise < kNoBetter * best.erosion;
     const bool known = std::any_of(tried.begin(), tried.begin() + tries, [&](const LeastChord* other) {
-      return (!less || other->saddles == offer.saddles) && dot(other->normal, offer.normal) > kAlike;
+      return (!less || other->saddles == offer.start.saddles) && alike(*other, offer.start);
     });
-    if (known || promise > kPromised * best.erosion) continue;
-    tried[tries++] = &offer;
-    const LeastChord found = descent.descend(x, offer, {kFirst * best.erosion, best.erosion});
-    if (found.erosion < best.erosion * (1 - kLess)) best = found;
+    if (known || offer.promise - offer.doubt > kPromised * best.erosion) continue;
+    tried[tries++] = &offer.start;
+    const bool any = lower || !begins;
+    const LeastChord found = descent.descend(
+        x, offer.start,
+        {kFirst * best.erosion, best.erosion * (any ? 1 - kLess : 1), any ? kOfferPromise : kFollowPromise});
+    if (!(found.erosion < best.erosion * (1 - kLess))) continue;
+    best = found;
+    lower = true;
   }
-  return best;
+  if (begins && !(lower && alike(best, start)) && start.erosion < kSeedHope * best.erosion) {
+    const double bound = best.erosion * (lower ? 1 : 1 + kSeedRounding);
+    const LeastChord own = descent.descend(x, start, {kFirst * best.erosion, bound, kFollowPromise});
+    if (own.erosion <= bound) {
+      best = own;
+      lower = true;
+    }
+  }
+  return lower ? descent.look_across(x, best) : best;
 }
 
 std::unique_ptr<ChordDescent> Refinement::borrow() {

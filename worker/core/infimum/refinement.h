@@ -33,9 +33,12 @@ struct RefinedPoint {
 /// The rounds of refine(), each by ranges of points, which may be computed anywhere and in any order: what a
 /// round finds at a point is a function of solid, lattice and what the round before left.
 ///
-/// In round 0 every point goes down from its seed.  In a later one a point goes down from the planes of those
-/// neighbours on the lattice that the round before changed.  Who has all that a round found puts it in with
-/// set(); the next round reads only that.
+/// In round 0 those points whose indices along the axes are even go down from their seeds; the others wait with
+/// theirs.  In rounds 1 to 3 points with one, two and three odd indices follow their neighbours, mostly with a
+/// plane half-way between those of two: where the optimum turns steadily that is all but it, and where it does
+/// not they go down from their own seeds, too.  A point without a neighbour to follow does not wait.  From the
+/// round after its first on a point goes down from the planes of those neighbours that the round before
+/// changed.  Who has all that a round found puts it in with set(); the next round reads only that.
 ///
 /// Threads: one calls, and descend() and improve() use those that were asked for.
 class Refinement {
@@ -48,12 +51,14 @@ class Refinement {
 
   std::uint32_t points() const { return static_cast<std::uint32_t>(least_.size()); }
 
-  /// Round 0: every point of the range, ascending.  A point that lies outside within rounding keeps its seed.
+  /// Round 0: every point of the range, ascending, those that wait with their seeds.  A point that lies outside
+  /// within rounding keeps its seed.
   /// @throws CoreError kCancelled when the context asks to stop; so below.
   std::vector<RefinedPoint> descend(const DirectionSet& directions, const Seeds& seeds, PointRange range,
                                     ExecutionContext& context);
 
-  /// Round `round` >= 1: those points of the range that find less than they have, ascending.
+  /// Round `round` >= 1: those points of the range that find less than they have, and those whose first round
+  /// it is, ascending.
   std::vector<RefinedPoint> improve(int round, PointRange range, ExecutionContext& context);
 
   /// Keeps what round `round` found.
@@ -70,7 +75,16 @@ class Refinement {
   Vec3 at(std::uint32_t point) const;
   template <class Body>
   void each_of(std::size_t count, ExecutionContext& context, const Body& body);
+  void find_first_rounds();
+  bool offers_to(std::uint32_t neighbour, std::uint32_t point, int round) const;
+  struct Offer {
+    LeastChord start;
+    double promise = 0;  // E
+    double doubt = 0;    // of it
+  };
+  std::size_t list_offers(int round, std::uint32_t point, std::array<Offer, 6>& offers) const;
   std::vector<std::uint32_t> offered(int round, PointRange range) const;
+  LeastChord from_seed(std::uint32_t point, const LeastChord& seed, ChordDescent& descent) const;
   LeastChord least_of_offers(int round, std::uint32_t point, ChordDescent& descent) const;
   std::unique_ptr<ChordDescent> borrow();
   void give_back(std::unique_ptr<ChordDescent> descent);
@@ -82,6 +96,7 @@ class Refinement {
   std::vector<std::array<std::uint32_t, 6>> around_;  // neighbours within the solid; kNoDirection
   std::vector<LeastChord> least_;
   std::vector<std::uint8_t> round_;  // in which it was found
+  std::vector<std::uint8_t> first_;  // round in which the point begins: 0 .. 3
   std::mutex mutex_;
   std::vector<std::unique_ptr<ChordDescent>> idle_;  // guarded by mutex_
 };

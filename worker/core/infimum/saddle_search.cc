@@ -22,12 +22,7 @@ SaddleSearch::SaddleSearch(const PieceInput& input)
 
 template <class Meets, class Visit>
 void SaddleSearch::visit_vertices(Meets meets, Visit visit) {
-  in_.tree.select(meets, near_);
-  for (const std::uint32_t t : near_) {
-    for (const std::uint32_t v : in_.mesh.triangles[t]) {
-      if (in_.owner[v] == t) visit(v);
-    }
-  }
+  for (const std::uint32_t i : in_.saddle_tree.select(meets, lists_)) visit(in_.saddles[i]);
 }
 
 const std::vector<SaddleSearch::Saddle>& SaddleSearch::sinking(const Vec3& x, const Vec3& d, const Vec3& end,
@@ -38,13 +33,14 @@ const std::vector<SaddleSearch::Saddle>& SaddleSearch::sinking(const Vec3& x, co
   const auto meets = [&](const FourBoxes& boxes) {
     return (now.middle(boxes) >= -now.reach(boxes)) & (then.middle(boxes) <= then.reach(boxes));
   };
-  visit_vertices(meets, [&](std::uint32_t v) {
+  visit_vertices(meets, [&](const PieceInput::Saddle& saddle) {
+    const std::uint32_t v = saddle.vertex;
     const Vec3 y = from_x(v);
     const double now_height = dot(d, y), then_height = dot(end, y);
     if (now_height < -kTouchHeight || then_height >= -kTouchHeight) return;
     if (std::find(but.begin(), but.end(), v) != but.end()) return;
     const double at = std::max(0.0, now_height / (now_height - then_height));
-    if (may_join(v, d + at * (end - d))) found_.push_back({at, v});
+    if (may_join(saddle, d + at * (end - d))) found_.push_back({at, v});
   });
   std::sort(found_.begin(), found_.end());
   return found_;
@@ -59,18 +55,22 @@ const std::vector<SaddleSearch::Saddle>& SaddleSearch::just_below(const Vec3& x,
     const Four middle = plane.middle(boxes), reach = plane.reach(boxes);
     return (middle <= reach) & (middle + reach >= -tilt * PlaneHeights::distance(boxes, x));
   };
-  visit_vertices(meets, [&](std::uint32_t v) {
+  visit_vertices(meets, [&](const PieceInput::Saddle& saddle) {
+    const std::uint32_t v = saddle.vertex;
     const Vec3 y = from_x(v);
     const double height = dot(d, y), square = dot(y, y);
     if (height >= -kTouchHeight || height * height > furthest_ * furthest_ * square) return;
-    if (may_join(v, d - (height / square) * y)) found_.push_back({-height / std::sqrt(square), v});
+    if (may_join(saddle, d - (height / square) * y)) found_.push_back({-height / std::sqrt(square), v});
   });
   std::sort(found_.begin(), found_.end());
   return found_;
 }
 
-bool SaddleSearch::may_join(std::uint32_t vertex, const Vec3& d) const {
+bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) const {
+  const std::uint32_t vertex = saddle.vertex;
   if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return true;
+  const double along = dot(d, saddle.normal);
+  if (along * along < saddle.cosine * saddle.cosine * dot(d, d)) return false;
   const auto ring = in_.rings[vertex];
   int changes = 0;
   bool before = dot(d, from_x(ring.back())) < 0;

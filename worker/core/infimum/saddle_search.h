@@ -35,14 +35,14 @@ class SaddleSearch {
 
  private:
   Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
-  bool may_join(std::uint32_t vertex, const Vec3& d) const;
+  bool may_join(const PieceInput::Saddle& saddle, const Vec3& d) const;
   template <class Meets, class Visit>
   void visit_vertices(Meets meets, Visit visit);
 
   const PieceInput& in_;
   double furthest_;  // tilt that just_below() looks at
   Vec3 x_;
-  std::vector<std::uint32_t> near_;  // triangles
+  FourTree::Lists lists_;
   std::vector<Saddle> found_;
 };
 

@@ -15,12 +15,6 @@ namespace affskel::core {
 /// Vertices nearer to a plane than this (scaled units) lie in it.
 constexpr double kTouchHeight = 1e-12;
 
-/// Bit i where corner i is below, of a triangle's heights.
-inline unsigned sides_of(const std::array<double, 3>& height) {
-  return (height[0] < -kTouchHeight ? 1U : 0U) | (height[1] < -kTouchHeight ? 2U : 0U) |
-         (height[2] < -kTouchHeight ? 4U : 0U);
-}
-
 /// The section of a solid with the plane of normal d through x, as closed loops.  Its memory is used again.
 ///
 /// Heights are d.(y - x), below means < 0; the section is seen from above and lies to the left of its loops.
@@ -33,26 +27,38 @@ class SectionLoops {
   };
 
   /// A triangle that the plane cuts, and where its loop leaves it, by the edge that rises from below to above.
+  /// One corner is alone on its side.
   struct Cut {
-    std::uint32_t triangle = 0;
-    std::uint32_t edge = 0;          ///< corner that the edge begins at
-    std::array<double, 3> height{};  ///< within kTouchHeight may be < 0 above, too
     PlanePoint leaves;
+    double alone = 0;                ///< distance of that corner from the plane; 0 where that just touches it
+    std::array<double, 2> others{};  ///< distances of the other two
+    std::uint32_t edge = 0;          ///< the half-edge 3 t + i that it is left by
+    std::uint32_t corner = 0;        ///< the vertex that is alone
+    bool corner_below = false;
+
+    std::uint32_t triangle() const { return edge / 3; }
+    /// Whether the triangle's first corner is below.
+    bool first_below() const {
+      const std::uint32_t begin = edge - 3 * triangle();
+      return begin == 0 || (begin == 1 && !corner_below);
+    }
   };
 
   struct Loop {
     std::uint32_t begin = 0, end = 0;  ///< of cuts()
-    std::uint32_t shell = 0;
+    std::uint32_t low = 0;             ///< a vertex below, of an edge that it passes
+    double area = 0;                   ///< of what it runs round, to its left
+    std::array<double, 2> moment{};    ///< first, of the same, about x
     double high_a = -std::numeric_limits<double>::infinity();
     double low_b = std::numeric_limits<double>::infinity(), high_b = -low_b;
     /// But for vertices that the plane touches, where loops may meet.
     PlanePoint rightmost{-std::numeric_limits<double>::infinity(), 0};
   };
 
-  /// An edge of the vertices' tree that the plane cuts, by its end away from the root.
-  struct TreeEdge {
-    std::uint32_t child = 0, loop = 0;
-    bool child_below = false;
+  /// One of PieceInput::edges that the plane cuts.
+  struct Edge {
+    std::uint32_t number = 0, loop = 0;
+    bool begin_below = false;  ///< whether the first of its half-edges rises
   };
 
   explicit SectionLoops(const PieceInput& input);
@@ -63,9 +69,7 @@ class SectionLoops {
 
   const std::vector<Loop>& loops() const { return loops_; }
   const std::vector<Cut>& cuts() const { return cuts_; }  ///< loop by loop, each in order
-  const std::vector<TreeEdge>& tree_edges() const { return tree_edges_; }
-  /// Of PieceInput::Shell::handles: the vertex below and the loop.
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& handle_edges() const { return handle_edges_; }
+  const std::vector<Edge>& edges() const { return edges_; }
   const Vec3& u() const { return u_; }
   const Vec3& w() const { return w_; }
 
@@ -93,8 +97,19 @@ class SectionLoops {
   }
 
  private:
+  // Both coordinates of a PlanePoint, worked on at once.
+  using Two = double __attribute__((vector_size(16)));
+
+  // A vertex in the plane's axes.
+  struct Corner {
+    Two at;
+    double height = 0;
+    std::uint32_t vertex = 0;
+  };
+
   double height(std::uint32_t vertex) const { return dot(d_, in_.mesh.points[vertex] - x_); }
-  void collect();
+  Corner corner(std::uint32_t vertex) const;
+  static Two passed(const Corner& low, const Corner& high);
   void trace(std::uint32_t start);
 
   // Where the loop passes the ray from a place to the right: calls visit(a there, whether b grows).
@@ -115,16 +130,13 @@ class SectionLoops {
 
   const PieceInput& in_;
   Vec3 x_, d_, u_, w_;
-  std::vector<std::uint32_t> near_;  // triangles that may be cut
-  std::vector<Cut> found_;           // in the order of the tree
-  std::vector<std::uint32_t> mark_;  // per triangle: first_mark_ plus its place in found_
-  std::uint32_t first_mark_ = 1;
-  std::vector<std::uint8_t> traced_;  // per found_
+  std::array<Two, 3> axes_;  // u and w, by coordinate of space
+  FourTree::Lists lists_;
+  std::vector<std::uint32_t> passed_;  // per edge: the section in which it was passed last
+  std::uint32_t number_ = 0;           // of the section
   std::vector<Cut> cuts_;
   std::vector<Loop> loops_;
-  std::vector<TreeEdge> tree_edges_;
-  std::size_t tree_edge_count_ = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> handle_edges_;
+  std::vector<Edge> edges_;
 };
 
 }  // namespace affskel::core

@@ -27,17 +27,19 @@ TEST(FourTreeTest, SelectsWhatAPlaneMeets) {
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i], i);
     SplitMix64 random(7);
-    std::vector<std::uint32_t> selected;
+    std::vector<std::uint32_t> place(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    FourTree::Lists lists;
     for (int n = 0; n < 200; ++n) {
       const Vec3 x = 0.4 * draw_vector(random);
       const Vec3 d = draw_direction(random);
       const PlaneHeights plane(x, d);
-      tree.select(
-          [&](const FourBoxes& four) {
-            const Four middle = plane.middle(four), reach = plane.reach(four);
-            return (middle <= reach) & (middle >= -reach);
-          },
-          selected);
+      const auto meets = [&](const FourBoxes& four) {
+        const Four middle = plane.middle(four), reach = plane.reach(four);
+        return (middle <= reach) & (middle >= -reach);
+      };
+      std::vector<std::uint32_t> selected;  // by their places in the order
+      for (const std::uint32_t item : tree.select(meets, lists)) selected.push_back(place[item]);
       EXPECT_TRUE(std::is_sorted(selected.begin(), selected.end()));
       std::size_t met = 0;
       for (std::uint32_t i = 0; i < order.size(); ++i) {
@@ -60,14 +62,14 @@ TEST(FourTreeTest, SelectsWhatAPlaneMeets) {
 }
 
 TEST(FourTreeTest, HoldsFewItems) {
-  for (const std::size_t count : {1U, 2U, 5U, 9U}) {
+  for (const std::size_t count : {1U, 2U, 5U, 9U, 16U, 17U}) {
     std::vector<Box> boxes(count);
     for (std::size_t i = 0; i < count; ++i) boxes[i].include(Vec3{0.01 * static_cast<double>(i), 0, 0});
     FourTree tree;
     tree.build(boxes);
-    std::vector<std::uint32_t> selected;
-    tree.select([](const FourBoxes& four) { return four.half[0] >= 0; }, selected);
-    EXPECT_EQ(selected.size(), count);
+    FourTree::Lists lists;
+    const auto all = [](const FourBoxes& four) { return four.half[0] >= 0; };
+    EXPECT_EQ(tree.select(all, lists).size(), count);
   }
 }
 
@@ -78,7 +80,7 @@ TEST(PlaneHeightsTest, DistancesAreNoLess) {
   FourTree tree;
   tree.build({box});
   const Vec3 x{-0.3, 0.4, 0};
-  std::vector<std::uint32_t> selected;
+  FourTree::Lists lists;
   const double furthest = norm(Vec3{0.2, -0.1, 0.35} - x);
   tree.select(
       [&](const FourBoxes& four) {
@@ -86,7 +88,7 @@ TEST(PlaneHeightsTest, DistancesAreNoLess) {
         EXPECT_LE(double(PlaneHeights::distance(four, x)[0]), 2 * furthest);
         return four.half[0] >= 0;
       },
-      selected);
+      lists);
 }
 
 }  // namespace

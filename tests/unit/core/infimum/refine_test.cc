@@ -8,13 +8,20 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/affine_map.h"
+#include "core/base/basis.h"
 #include "core/base/error.h"
 #include "core/base/execution_context.h"
+#include "core/base/unit.h"
 #include "core/erosion/computed.h"
 #include "core/erosion/directions.h"
+#include "core/erosion/join_tree.h"
+#include "core/erosion/place_chords.h"
 #include "core/infimum/refinement.h"
 #include "core/infimum/samples.h"
 #include "core/lattice/lattice.h"
@@ -28,19 +35,27 @@ namespace {
 
 struct Refined {
   Refined(const Mesh& mesh, std::uint64_t points, const std::string& directions, unsigned threads = 1)
-      : solid(make_solid(mesh)),
-        lattice(lattice_of_points(solid, points)),
+      : Refined(
+            make_solid(mesh), [&](const Solid& s) { return lattice_of_points(s, points); }, directions,
+            threads) {}
+
+  template <class MakeLattice>
+  Refined(Solid of, const MakeLattice& lattice_of, const std::string& directions, unsigned threads = 1)
+      : solid(std::move(of)),
+        lattice(lattice_of(solid)),
         seeds(compute(solid, lattice, directions)),
         volume_unit(std::pow(solid.scale(), 3)) {
     ErosionField field(lattice.points, false);
-    for (std::uint32_t p = 0; p < lattice.points; ++p) {
-      FieldValue value = seeds.value[p];
-      value.erosion /= volume_unit;  // a power of two
-      value.area /= solid.scale() * solid.scale();
-      field.offer(p, value);
-    }
+    for (std::uint32_t p = 0; p < lattice.points; ++p) field.offer(p, scaled_seed(p));
     ExecutionContext context;
     values = refine(PieceInput(solid), lattice, seeds.directions, field, {.threads = threads}, context);
+  }
+
+  FieldValue scaled_seed(std::uint32_t p) const {
+    FieldValue value = seeds.value[p];
+    value.erosion /= volume_unit;  // a power of two
+    value.area /= solid.scale() * solid.scale();
+    return value;
   }
 
   /// E at a point, in mesh units.
@@ -113,12 +128,7 @@ TEST(RefineTest, TheSameByRanges) {
   const PieceInput input(whole.solid);
   Refinement parts(input, whole.lattice, 1);
   ExecutionContext context;
-  const auto seed = [&](std::uint32_t p) {
-    FieldValue value = whole.seeds.value[p];
-    value.erosion /= whole.volume_unit;
-    value.area /= whole.solid.scale() * whole.solid.scale();
-    return value;
-  };
+  const auto seed = [&](std::uint32_t p) { return whole.scaled_seed(p); };
   std::vector<RefinedPoint> found;
   int round = 0;
   do {
@@ -139,6 +149,39 @@ TEST(RefineTest, TheSameByRanges) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(parts.least()[p].erosion),
               std::bit_cast<std::uint64_t>(whole.values[p].erosion));
     EXPECT_TRUE(parts.least()[p].normal == whole.values[p].normal);
+  }
+}
+
+// One point in eight in round 0, those with one, two, three odd indices each in their round.
+TEST(RefineTest, PointsBeginInFourRounds) {
+  const Refined whole(make_body({.triangles = 500}), 3000, "triangles");
+  const PieceInput input(whole.solid);
+  Refinement rounds(input, whole.lattice, 1);
+  ExecutionContext context;
+  std::vector<std::uint32_t> all(whole.lattice.points);
+  std::iota(all.begin(), all.end(), 0U);
+  const std::vector<LatticePlace> places = lattice_places(whole.lattice, all);
+  const auto seed = [&](std::uint32_t p) { return whole.scaled_seed(p); };
+  for (int round = 0; round < 4; ++round) {
+    const PointRange range{0, whole.lattice.points};
+    const std::vector<RefinedPoint> found = round == 0
+                                                ? rounds.descend(whole.seeds.directions, seed, range, context)
+                                                : rounds.improve(round, range, context);
+    std::size_t begun = 0, of_round = 0;
+    for (const RefinedPoint& point : found) {
+      const auto& [i, j, k] = places[point.point];
+      const bool waits = point.least.erosion == seed(point.point).erosion;
+      begun += !waits && static_cast<int>(i % 2 + j % 2 + k % 2) == round;
+      rounds.set(point, round);
+    }
+    for (const auto& [i, j, k] : places) of_round += static_cast<int>(i % 2 + j % 2 + k % 2) == round;
+    EXPECT_GT(static_cast<double>(begun), 0.8 * static_cast<double>(of_round)) << round;
+    if (round == 0) {
+      const auto waiting = std::count_if(found.begin(), found.end(), [&](const RefinedPoint& point) {
+        return point.least.erosion == seed(point.point).erosion;
+      });
+      EXPECT_GT(static_cast<double>(waiting), 0.7 * whole.lattice.points);
+    }
   }
 }
 
@@ -200,6 +243,83 @@ TEST(RefineTest, ConvexSolidsDoNotDependOnTheSeeds) {
       differ += std::abs(few.erosion(p) / many.erosion(p) - 1) > 1e-6;
     }
     EXPECT_LE(differ, few.lattice.points / 1000) << mesh.triangles.size();
+  }
+}
+
+double chord_by_trees(const PlaceChords& chords, std::size_t place, JoinTreeBuilder& builder, const Vec3& d) {
+  float volume = 0;
+  chords.along(builder.build(d), d, place, 0, {&volume, 1});
+  return double(volume);
+}
+
+// The least chord at a place by join trees alone, from a direction on: steps along two axes, shorter and shorter.
+double least_by_trees(const PlaceChords& chords, std::size_t place, JoinTreeBuilder& builder, Vec3 d) {
+  const auto chord = [&](const Vec3& direction) { return chord_by_trees(chords, place, builder, direction); };
+  double least = chord(d);
+  for (double step = 0.02; step > 1e-7;) {
+    Vec3 u, w;
+    make_basis(d, u, w);
+    bool lower = false;
+    for (const Vec3& tilt : {u, -1 * u, w, -1 * w}) {
+      const Vec3 tilted = unit(d + step * tilt);
+      const double volume = chord(tilted);
+      if (volume >= least) continue;
+      least = volume;
+      d = tilted;
+      lower = true;
+      break;
+    }
+    if (!lower) step *= 0.5;
+  }
+  return least;
+}
+
+TEST(RefineTest, ConvexSolidsHaveTheLeastThatTreesFind) {
+  std::size_t above = 0, points = 0;
+  for (const Mesh& mesh : {make_sphere(1, 320), make_ellipsoid(1, 2, 0.5, 320), make_cylinder(1, 3, 3),
+                           make_cylinder(1, 3, 24), make_cone(1, 3, 24), make_box(3, 2, 1.5)}) {
+    const Refined refined(mesh, 1500, "sphere:300");
+    const Computed many = compute(refined.solid, refined.lattice, "sphere:20000");
+    const std::vector<Vec3> places = places_of(refined.lattice);
+    const PlaceChords chords(refined.solid, places);
+    const TreeInput input(refined.solid);
+    JoinTreeBuilder builder(input);
+    for (std::uint32_t p = 0; p < refined.lattice.points; p += 31) {
+      const double least =
+          least_by_trees(chords, p, builder, many.directions[many.value[p].direction]) * refined.volume_unit;
+      above += refined.erosion(p) > least * (1 + 1e-6);
+      ++points;
+      const double there = chord_by_trees(chords, p, builder, refined.values[p].normal);
+      EXPECT_NEAR(refined.values[p].erosion, there, 1e-6 * there);  // chords have 24 bits
+    }
+  }
+  EXPECT_GT(points, 250U);
+  EXPECT_EQ(above, 0U);
+}
+
+// E(M x) of M V is det M times E(x) of V: on the mapped lattice, from the mapped normals.
+TEST(RefineTest, FollowsAffineMaps) {
+  const AffineMap map{{{{1, 0.4, -0.2}, {0.1, 0.7, 0.3}, {-0.3, 0.2, 1.3}}}, {5, -2, 1}};
+  for (const Mesh& mesh : {shaken(make_torus(3, 1, 256), 0, 1), make_body({.triangles = 500})}) {
+    Mesh mapped = mesh;
+    for (Vec3& p : mapped.points) p = map(p);
+    const Refined here(mesh, 2000, "triangles");
+    const auto mapped_lattice = [&](const Solid& solid) {
+      LatticeGrid grid = here.lattice.grid;
+      const double from = here.solid.scale(), to = 1 / solid.scale();
+      grid.origin = to * (map(here.solid.centre + from * grid.origin) - solid.centre);
+      const Vec3 zero = map(Vec3{});
+      for (Vec3& axis : grid.axes) axis = to * (map(from * axis) - zero);
+      return make_lattice(solid, grid);
+    };
+    const Refined there(make_solid(mapped), mapped_lattice, "triangles");
+    ASSERT_EQ(here.lattice.points, there.lattice.points);
+    const double ratio = there.solid.volume / here.solid.volume;
+    std::size_t differ = 0;
+    for (std::uint32_t p = 0; p < here.lattice.points; ++p) {
+      differ += std::abs(there.erosion(p) / (ratio * here.erosion(p)) - 1) > 1e-6;
+    }
+    EXPECT_LE(differ, here.lattice.points / 50) << mesh.triangles.size();
   }
 }
 

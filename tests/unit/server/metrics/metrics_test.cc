@@ -24,6 +24,7 @@ TEST(MetricsTest, CountWhatTheyAreTold) {
   metrics.lease_fenced();
   metrics.directions("ada", 10, 3);
   metrics.directions("ada", 5, 0);
+  metrics.refined_points(100, 7);
   metrics.task_finished("erode", milliseconds(1500));
   metrics.stage_ended("erode", std::chrono::hours(2));
   metrics.transaction(milliseconds(1), milliseconds(3));
@@ -39,6 +40,8 @@ TEST(MetricsTest, CountWhatTheyAreTold) {
   EXPECT_EQ(value_of(seen, "affskel_leases_fenced_total"), 1);
   EXPECT_EQ(value_of(seen, "affskel_directions_total"), 15);
   EXPECT_EQ(value_of(seen, "affskel_directions_repeated_total"), 3);
+  EXPECT_EQ(value_of(seen, "affskel_refined_points_total"), 100);
+  EXPECT_EQ(value_of(seen, "affskel_refined_points_repeated_total"), 7);
   EXPECT_EQ(value_of(seen, "affskel_owner_directions_total", {{"owner", "ada"}}), 15);
   EXPECT_EQ(value_of(seen, "affskel_task_duration_seconds_sum", {{"kind", "erode"}}), 1.5);
   EXPECT_EQ(value_of(seen, "affskel_stage_duration_seconds_bucket", {{"stage", "erode"}, {"le", "3600"}}), 0);

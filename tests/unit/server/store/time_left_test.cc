@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/refine_rounds.h"
 #include "store/recorded_progress.h"
 
 namespace affskel::server {
@@ -118,6 +119,30 @@ TEST(TimeLeft, BeginsAnewWithWhatIsComputedAgain) {
   for (int s = 1; s <= 50; ++s) left.add(kBegin + 1000 * s, static_cast<std::uint64_t>(10 * s), 1000);
   left.add(kBegin + 51000, 10, 1000);
   EXPECT_FALSE(left.at(kBegin + 51000));
+}
+
+// A refinement on one worker: its first four rounds at one rate, by the points that begin.
+TEST(TimesLeft, AreToldOfRefinements) {
+  constexpr std::int64_t kPoints = 80000;
+  TimesLeft times;
+  v1::Job job;
+  job.set_id("a");
+  job.set_state(v1::JOB_STATE_RUNNING);
+  job.set_stage(v1::JOB_STAGE_REFINE);
+  std::int64_t second = 0;
+  for (std::int64_t round = 0; round < 5; ++round) {
+    const std::int64_t steps = round == 0 || round == 3 ? 10 : round < 3 ? 30 : 1;
+    for (std::int64_t n = 1; n <= steps; ++n) {
+      const std::int64_t begun = base::refine_points_begun(round, kPoints * n / steps, kPoints);
+      times.add("a", kBegin + 1000 * ++second, static_cast<std::uint64_t>(begun), kPoints);
+      job.clear_remaining_ms();
+      times.fill_in(job, kBegin + 1000 * second);
+      if (round == 2) {
+        EXPECT_NEAR(static_cast<double>(job.remaining_ms()), 1000. * static_cast<double>(80 - second), 2000);
+      }
+    }
+  }
+  EXPECT_FALSE(job.has_remaining_ms()) << "all points have begun";
 }
 
 TEST(TimesLeft, AreToldOfJobsThatRun) {
