@@ -81,8 +81,9 @@ class GraphOfCurve {
       std::uint32_t& owner = graph_.part[v];
       if (owner == kNoBranch || within[b] > within[owner]) owner = b;
     });
-    give_joints();
+    const std::vector<std::uint32_t> owner = graph_.part;
     for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
+    give_joints(owner);
   }
 
   template <class Visit>
@@ -92,26 +93,47 @@ class GraphOfCurve {
         visit(b, graph_.branches[b].vertices[n], is_within(graph_.branches[b], n));
   }
 
-  // What lies in the ball about a joint goes to its branch, from a place in two balls to the one that it is deeper in.
-  void give_joints() {
-    std::vector<double> depth(places_.size(), 1);
-    std::vector<std::uint32_t> part = graph_.part;
+  // A limb begins where it leaves the balls of the branch that its joint belongs to.
+  void give_joints(const std::vector<std::uint32_t>& owner) {
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b) {
-      const auto& vertices = graph_.branches[b].vertices;
       for (const bool from_last : {false, true}) {
+        const auto& vertices = graph_.branches[b].vertices;
         const std::uint32_t joint = from_last ? vertices.back() : vertices.front();
-        if (graph_.part[joint] == b) continue;
-        for (std::size_t n = 1; n + 1 < vertices.size(); ++n) {
-          const std::uint32_t v = vertices[from_last ? vertices.size() - 1 - n : n];
-          const double way = norm(places_[v] - places_[joint]);
-          if (!(way < ball_[joint])) break;
-          if (way >= depth[v] * ball_[joint]) continue;
-          depth[v] = way / ball_[joint];
-          part[v] = graph_.part[joint];
-        }
+        if (owner[joint] != b) give_joint(b, from_last, owner[joint]);
       }
     }
-    graph_.part = std::move(part);
+  }
+
+  // How deep a place lies in the balls of a branch; below 0 outside.
+  double depth_in(const CurveBranch& branch, const Vec3& at) const {
+    double depth = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : branch.vertices) depth = std::max(depth, ball_[v] - norm(places_[v] - at));
+    return depth;
+  }
+
+  void give_joint(std::uint32_t b, bool from_last, std::uint32_t to) {
+    const auto& vertices = graph_.branches[b].vertices;
+    const auto at = [&](std::size_t n) { return vertices[from_last ? vertices.size() - 1 - n : n]; };
+    double before = depth_in(graph_.branches[to], places_[at(0)]);
+    for (std::size_t n = 1; n + 1 < vertices.size() && graph_.part[at(n)] == b; ++n) {
+      const double depth = depth_in(graph_.branches[to], places_[at(n)]);
+      if (depth <= 0) {
+        // A vertex stands for half of the way to the next on either side.
+        const double inside = before > 0 ? before / (before - depth) : 0;
+        if (inside < 0.5 && n > 1) move_share(at(n - 1), to, b, 0.5 - inside);
+        if (inside > 0.5) move_share(at(n), b, to, inside - 0.5);
+        break;
+      }
+      graph_.part[at(n)] = to;
+      move_share(at(n), b, to, 1);
+      before = depth;
+    }
+  }
+
+  // Of a vertex, a part of its share, from one branch to another.
+  void move_share(std::uint32_t v, std::uint32_t from, std::uint32_t to, double part) {
+    graph_.branches[from].share -= part * share_[v];
+    graph_.branches[to].share += part * share_[v];
   }
 
   Vec3 mean_place(const CurveBranch& branch) const {
