@@ -22,10 +22,13 @@ namespace {
 constexpr int kPasses = 300, kLaterPasses = 40;
 constexpr double kStep = 0.5, kStepBack = -0.51;
 
-constexpr int kRounds = 3;      // sections are across lines that the last round has moved
+constexpr int kRounds = 5;      // sections are across lines that the last round has moved
 constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
 constexpr double kJoint = 1.5;  // balls: nearer to a joint a section has a part of the other limbs
 constexpr double kSeen = 4;    // radii: of the rays that see a section
+// Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
+// one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
+constexpr double kRound = 0.75, kFlat = 0.55;
 constexpr double kSteep = 0.5;  // see centre_lines()
 constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
 
@@ -132,19 +135,49 @@ class CentreLines {
     return unit(go(1) - go(count - 1));
   }
 
+  // How far a vertex is from the middle of its section, and how much that says.
+  struct Shift {
+    Vec3 way;
+    double weight = 0, ball = 0;
+  };
+
+  Shift shift_of(const std::vector<std::uint32_t>& line, std::size_t n) const {
+    const Vec3& at = places_[line[n]];
+    Shift shift;
+    shift.ball = distance_.nearest(at);
+    const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
+    if (across == Vec3{} || !(shift.ball > 0)) return shift;
+    const LimbSection section = sections_.at(at, across, kSeen * shift.ball);
+    if (!inside(section.centre)) return shift;
+    const double roundness = distance_.nearest(section.centre) / std::max(section.radius, shift.ball);
+    shift.weight = std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
+    shift.way = section.centre - at;
+    return shift;
+  }
+
+  // Each goes by the mean of what lies within a radius on either side, so that no bend is narrower.
   void to_middle() {
-    std::vector<Vec3> moved = places_;
     for (const auto& line : lines_) {
       const Free free = free_part(line);
+      std::vector<Shift> shifts;
+      std::vector<double> along;
       for (std::size_t n = free.first; n < free.last; ++n) {
-        const Vec3& at = places_[line[n]];
-        const double ball = distance_.nearest(at);
-        const Vec3 across = direction(line, n, kDirection * ball + input_.spacing);
-        if (across == Vec3{} || !(ball > 0)) continue;
-        moved[line[n]] = sections_.at(at, across, kSeen * ball).centre;
+        shifts.push_back(shift_of(line, n));
+        along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - places_[line[n - 1]]));
+      }
+      std::size_t low = 0;
+      for (std::size_t n = 0; n < shifts.size(); ++n) {
+        const double stretch = kDirection * shifts[n].ball;
+        while (along[n] - along[low] > stretch) ++low;
+        Vec3 sum;
+        double count = 0;
+        for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count)
+          sum = sum + shifts[k].weight * shifts[k].way;
+        while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
+        Vec3& at = places_[line[free.first + n]];
+        at = at + (1 / count) * sum;
       }
     }
-    places_ = std::move(moved);
   }
 
   // Joints, and what lies in their balls.
