@@ -22,14 +22,14 @@ namespace {
 constexpr int kPasses = 300, kLaterPasses = 40;
 constexpr double kStep = 0.5, kStepBack = -0.51;
 
-constexpr int kRounds = 5;      // sections are across lines that the last round has moved
+constexpr int kRounds = 5;        // sections are across lines that the last round has moved
 constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
-constexpr double kJoint = 1.5;  // balls: nearer to a joint a section has a part of the other limbs
-constexpr double kSeen = 4;    // radii: of the rays that see a section
+constexpr double kJoint = 1.5;    // balls: nearer to a joint a section has a part of the other limbs
+constexpr double kSeen = 4;       // radii: of the rays that see a section
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
 constexpr double kRound = 0.75, kFlat = 0.55;
-constexpr double kSteep = 0.5;  // see centre_lines()
+constexpr double kSteep = 0.5;   // see centre_lines()
 constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
 
 // How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
@@ -44,13 +44,12 @@ class CentreLines {
         distance_(input.surface),
         membership_(input.surface),
         lines_(polylines(places.size(), input.segments)),
-        neighbours_(places.size(),
-                    [&](const auto& put) {
-                      for (const auto& [a, b] : input.segments) {
-                        put(a, b);
-                        put(b, a);
-                      }
-                    }) {}
+        neighbours_(places.size(), [&](const auto& put) {
+          for (const auto& [a, b] : input.segments) {
+            put(a, b);
+            put(b, a);
+          }
+        }) {}
 
   void run() {
     const std::vector<Vec3> before = places_;
@@ -226,7 +225,8 @@ class CentreLines {
     const double hold = kHold * trace;
     for (int k = 0; k < 3; ++k) {
       sum[static_cast<std::size_t>(k)] =
-          sum[static_cast<std::size_t>(k)] + hold * Vec3{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+          sum[static_cast<std::size_t>(k)] +
+          hold * Vec3{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
     }
     side = side + hold * places_[v];
     const Vec3 to = transposed_times(inverse_transposed(sum), side);
@@ -259,7 +259,9 @@ class CentreLines {
 
   // The line is gone along, and straight on beyond its end.
   void find_end(const std::vector<std::uint32_t>& line, bool from_last) {
-    const auto at = [&](std::size_t n) -> Vec3& { return places_[line[from_last ? line.size() - 1 - n : n]]; };
+    const auto at = [&](std::size_t n) -> Vec3& {
+      return places_[line[from_last ? line.size() - 1 - n : n]];
+    };
     const double around = kEndMoves * input_.spacing;
     std::size_t first = 0;
     while (first + 2 < line.size() && norm(at(first) - at(0)) < around) ++first;

@@ -21,6 +21,9 @@ constexpr double kStretch = 4;
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
 
+// Of two limbs that weigh about as much, neither is a part of the other's.
+constexpr double kMuchHeavier = 2;
+
 constexpr std::uint32_t kNoBranch = std::numeric_limits<std::uint32_t>::max();
 
 class GraphOfCurve {
@@ -83,7 +86,8 @@ class GraphOfCurve {
     });
     const std::vector<std::uint32_t> owner = graph_.part;
     for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
-    give_joints(owner);
+    give_joints(owner, within);
+    give_links(owner);
   }
 
   template <class Visit>
@@ -93,30 +97,48 @@ class GraphOfCurve {
         visit(b, graph_.branches[b].vertices[n], is_within(graph_.branches[b], n));
   }
 
-  // A limb begins where it leaves the balls of the branch that its joint belongs to.
-  void give_joints(const std::vector<std::uint32_t>& owner) {
+  // A limb begins where it leaves the balls of the branch that its joint belongs to, and of others there that are much
+  // heavier: both halves of a trunk.
+  void give_joints(const std::vector<std::uint32_t>& owner, const std::vector<double>& within) {
+    std::vector<std::vector<std::uint32_t>> at_joint(places_.size());
+    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
+      for (const std::uint32_t v : {graph_.branches[b].vertices.front(), graph_.branches[b].vertices.back()})
+        at_joint[v].push_back(b);
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b) {
       for (const bool from_last : {false, true}) {
         const auto& vertices = graph_.branches[b].vertices;
         const std::uint32_t joint = from_last ? vertices.back() : vertices.front();
-        if (owner[joint] != b) give_joint(b, from_last, owner[joint]);
+        if (owner[joint] == b) continue;
+        std::vector<std::uint32_t> heavier{owner[joint]};
+        for (const std::uint32_t other : at_joint[joint])
+          if (other != owner[joint] && within[other] > kMuchHeavier * within[b]) heavier.push_back(other);
+        give_joint(b, from_last, heavier);
       }
     }
   }
 
   // How deep a place lies in the balls of a branch; below 0 outside.
-  double depth_in(const CurveBranch& branch, const Vec3& at) const {
+  double depth_in(std::uint32_t branch, const Vec3& at) const {
     double depth = -std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : branch.vertices) depth = std::max(depth, ball_[v] - norm(places_[v] - at));
+    for (const std::uint32_t v : graph_.branches[branch].vertices)
+      depth = std::max(depth, ball_[v] - norm(places_[v] - at));
     return depth;
   }
 
-  void give_joint(std::uint32_t b, bool from_last, std::uint32_t to) {
+  void give_joint(std::uint32_t b, bool from_last, const std::vector<std::uint32_t>& heavier) {
     const auto& vertices = graph_.branches[b].vertices;
     const auto at = [&](std::size_t n) { return vertices[from_last ? vertices.size() - 1 - n : n]; };
-    double before = depth_in(graph_.branches[to], places_[at(0)]);
+    std::uint32_t to = heavier.front();
+    double before = depth_in(to, places_[at(0)]);
     for (std::size_t n = 1; n + 1 < vertices.size() && graph_.part[at(n)] == b; ++n) {
-      const double depth = depth_in(graph_.branches[to], places_[at(n)]);
+      double depth = -std::numeric_limits<double>::infinity();
+      std::uint32_t deepest = to;
+      for (const std::uint32_t other : heavier) {
+        const double there = depth_in(other, places_[at(n)]);
+        if (there <= depth) continue;
+        depth = there;
+        deepest = other;
+      }
       if (depth <= 0) {
         // A vertex stands for half of the way to the next on either side.
         const double inside = before > 0 ? before / (before - depth) : 0;
@@ -124,9 +146,22 @@ class GraphOfCurve {
         if (inside > 0.5) move_share(at(n), b, to, inside - 0.5);
         break;
       }
+      to = deepest;
       graph_.part[at(n)] = to;
       move_share(at(n), b, to, 1);
       before = depth;
+    }
+  }
+
+  // What no vertex is left of is a part of its neighbour.
+  void give_links(const std::vector<std::uint32_t>& owner) {
+    std::vector<char> has_own(graph_.branches.size(), 0);
+    for (const std::uint32_t b : graph_.part) has_own[b] = 1;
+    for (std::uint32_t b = 0; b < has_own.size(); ++b) {
+      CurveBranch& branch = graph_.branches[b];
+      if (has_own[b]) continue;
+      graph_.branches[owner[branch.vertices.front()]].share += branch.share;
+      branch.share = 0;
     }
   }
 

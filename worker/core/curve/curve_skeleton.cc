@@ -128,8 +128,7 @@ SheetLines with_joints(const Lattice& lattice, const RidgeBasis& basis, const Ri
 Mesh surface_in_frame(const Solid& solid, const Lattice& lattice) {
   Mesh surface = solid.mesh;
   const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
-  for (Vec3& p : surface.points)
-    p = lattice.spacing * transposed_times(to_indices, p - lattice.grid.origin);
+  for (Vec3& p : surface.points) p = lattice.spacing * transposed_times(to_indices, p - lattice.grid.origin);
   return surface;
 }
 
@@ -195,7 +194,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
   const LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
-  const SheetLines lines = with_joints(lattice, basis, ridge, sheet_lines(ridge, ends.is_end, options.context));
+  const SheetLines lines =
+      with_joints(lattice, basis, ridge, sheet_lines(ridge, ends.is_end, options.context));
   CurveSkeleton curve;
   curve.opened = lines.opened;
   curve.segments = lines.segments;

@@ -82,8 +82,7 @@ class Joints {
     for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
       if (gone_[n]) continue;
       for (std::size_t k = 1; k < polylines_[n].size(); ++k)
-        result.segments.push_back(
-            {number[joint_[polylines_[n][k - 1]]], number[joint_[polylines_[n][k]]]});
+        result.segments.push_back({number[joint_[polylines_[n][k - 1]]], number[joint_[polylines_[n][k]]]});
     }
     for (Segment& segment : result.segments)
       if (segment[0] > segment[1]) std::swap(segment[0], segment[1]);
