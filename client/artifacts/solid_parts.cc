@@ -40,9 +40,11 @@ v1::SolidParts parse_solid_parts(const std::string& bytes) {
               message.curve().erosion_size() == message.curve().xyz_size() / 3 &&
               (vertices == 0 || all_between(message.curve().segments(), 0, vertices - 1)),
           "its curve");
-  for (const v1::SolidPart& part : message.parts()) {
-    require(part.from_size() == 3 && part.to_size() == 3, "a part without its ends");
-    require(vertices > 0 && all_between(part.vertices(), 0, vertices - 1), "a vertex out of range");
+  for (const auto* branches : {&message.parts(), &message.links()}) {
+    for (const v1::SolidPart& branch : *branches) {
+      require(branch.from_size() == 3 && branch.to_size() == 3, "a part without its ends");
+      require(vertices > 0 && all_between(branch.vertices(), 0, vertices - 1), "a vertex out of range");
+    }
   }
   return message;
 }

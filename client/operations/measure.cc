@@ -10,7 +10,8 @@ Measures measure(Session& session, const std::string& job, double threshold) {
   v1::ArtifactHeader header;
   measures.solid = fetch_solid_parts(session, job, threshold, header);
   measures.job = header.job();
-  for (const v1::SolidPart& part : measures.solid.parts()) measures.curve_length += part.length();
+  for (const auto* branches : {&measures.solid.parts(), &measures.solid.links()})
+    for (const v1::SolidPart& branch : *branches) measures.curve_length += branch.length();
   const v1::TriangleMesh& curve = measures.solid.curve();
   measures.notices =
       skeleton_notices(static_cast<std::uint64_t>(curve.segments_size() / 2), curve.quality(), measures.job);

@@ -16,7 +16,7 @@ class Setting {
  public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
-  /// Of steadiness: noises of each level; of it and of reach: mesh files in the place of solids of our own.
+  /// Of steadiness: noises of each level; of it, of reach and of limbs: mesh files in the place of solids of our own.
   unsigned seeds = 2;
   std::vector<std::string> meshes;
 
@@ -60,6 +60,8 @@ void steadiness_experiment(const Setting& setting, Report& report);
 void reach_experiment(const Setting& setting, Report& report);
 /// Not published: one solid in several tessellations, and sets of directions against the infimum.
 void tessellation_experiment(const Setting& setting, Report& report);
+/// Not published: the curve skeleton beside mean curvature skeletons.
+void limbs_experiment(const Setting& setting, Report& report);
 /// 6.5.2: time against the number of triangles.
 void growth_experiment(const Setting& setting, Report& report);
 

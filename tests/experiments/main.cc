@@ -22,12 +22,19 @@ struct Experiment {
 };
 
 constexpr Experiment kExperiments[] = {
-    {"torus", torus_experiment},           {"ellipsoid", ellipsoid_experiment},
-    {"revolution", revolution_experiment}, {"bodies", body_experiment},
-    {"threshold", threshold_experiment},   {"noise", noise_experiment},
-    {"affine", affine_experiment},         {"planes", plane_experiment},
-    {"barrier", barrier_experiment},       {"steadiness", steadiness_experiment},
-    {"reach", reach_experiment},           {"tessellations", tessellation_experiment},
+    {"torus", torus_experiment},
+    {"ellipsoid", ellipsoid_experiment},
+    {"revolution", revolution_experiment},
+    {"bodies", body_experiment},
+    {"threshold", threshold_experiment},
+    {"noise", noise_experiment},
+    {"affine", affine_experiment},
+    {"planes", plane_experiment},
+    {"barrier", barrier_experiment},
+    {"steadiness", steadiness_experiment},
+    {"reach", reach_experiment},
+    {"limbs", limbs_experiment},
+    {"tessellations", tessellation_experiment},
     {"growth", growth_experiment},
 };
 
@@ -86,7 +93,8 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", setting.seeds, "of steadiness: noises of each level")
       ->check(CLI::Range(1U, 1000U))
       ->capture_default_str();
-  app.add_option("--mesh", setting.meshes, "of steadiness and reach: files in the place of solids of our own")
+  app.add_option("--mesh", setting.meshes,
+                 "of steadiness, reach and limbs: files in the place of solids of our own")
       ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
   try {

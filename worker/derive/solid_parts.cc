@@ -63,7 +63,7 @@ class Parts {
 
   void add_parts() {
     for (const core::CurveBranch& branch : graph_.branches) {
-      v1::SolidPart& part = *message_.add_parts();
+      v1::SolidPart& part = *(branch.share > 0 ? message_.add_parts() : message_.add_links());
       part.set_kind(kind_message(branch.kind));
       append(place_of(branch.vertices.front()), part.mutable_from());
       append(place_of(branch.vertices.back()), part.mutable_to());

@@ -78,7 +78,9 @@ void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& co
   for (const core::CurveBranch& branch : graph.branches) {
     ordered_json line = ordered_json::array();
     for (const std::uint32_t v : branch.vertices) line.push_back(vertex_of(shape, v));
-    file["branches"].push_back({{"part", file["branches"].size() + 1},
+    const ordered_json part =
+        branch.share > 0 ? ordered_json(file["branches"].size() + 1) : ordered_json(nullptr);
+    file["branches"].push_back({{"part", part},
                                 {"nodes", {branch.from, branch.to}},
                                 {"length", branch.length},
                                 {"straight_length", branch.straight_length},

@@ -31,6 +31,7 @@ class Measures(Saveable):
             NaN without one).
         starts, ends: (p, 3) where each branch hangs on, and its other end, of a limb the free one.
         branches: of each part the indices of its vertices in `curve`, from start to end.
+        links: the same of lines between parts that lie within joints, whole: no part of the solid is theirs.
         curve: the curve skeleton, see Surface: its attribute "part" is each vertex's.
         surface: the solid's, as it was computed; no attributes.
         triangle_part, thickness: (m,) per triangle of it: its part, and the way along its optimal normal to the skeleton
@@ -45,6 +46,7 @@ class Measures(Saveable):
     starts: Floats
     ends: Floats
     branches: Sequence[Ints]
+    links: Sequence[Ints]
     curve: Surface
     surface: Surface
     triangle_part: Ints
@@ -68,17 +70,21 @@ class Measures(Saveable):
 
     def graph(self) -> Any:
         """A networkx.MultiGraph: nodes are vertices of `curve` where branches end or meet, with place, E and radius; edges
-        are parts, with the numbers of `table` and the `polyline` (k, 3).  A part without a line is a node alone."""
+        are parts, with the numbers of `table` and the `polyline` (k, 3), and links, which are no part: with the polyline
+        alone, and part None.  A part without a line is a node alone."""
         import networkx
         graph = networkx.MultiGraph()
         places = self.curve.vertices
-        for row, branch in enumerate(self.branches):
+        for branch in (*self.branches, *self.links):
             for vertex in (int(branch[0]), int(branch[-1])):
                 graph.add_node(vertex, place=tuple(places[vertex]),
                                **{name: float(self.curve.attributes[name][vertex]) for name in ("E", "radius")})
+        for row, branch in enumerate(self.branches):
             if len(branch) > 1:
                 graph.add_edge(int(branch[0]), int(branch[-1]), part=row + 1, kind=self.kinds[row], polyline=places[branch],
                                **{name: float(values[row]) for name, values in self.numbers.items()})
+        for branch in self.links:
+            graph.add_edge(int(branch[0]), int(branch[-1]), part=None, kind="link", polyline=places[branch])
         return graph
 
 
@@ -90,8 +96,9 @@ def _places(parts: Sequence[types.SolidPart], name: str) -> Floats:
 
 
 def _whole(message: types.SolidParts, numbers: Mapping[str, Floats]) -> Dict[str, Any]:
+    links = sum(link.length for link in message.links)
     return {"volume": float(numbers["volume"].sum()), "surface_area": message.surface_area,
-            "curve_length": float(numbers["length"].sum()), "sheet_area": message.sheet_area,
+            "curve_length": float(numbers["length"].sum() + links), "sheet_area": message.sheet_area,
             "greatest_E": message.greatest_erosion, "greatest_E_place": tuple(message.greatest_place)}
 
 
@@ -102,6 +109,7 @@ def measures_of(message: types.SolidParts) -> Measures:
     numbers["angle"][[not part.HasField("angle") for part in parts]] = np.nan
     curve, surface = surface_of(message.curve), surface_of(message.surface)
     branches: List[Ints] = [np.array(part.vertices, np.int64) for part in parts]
+    links: List[Ints] = [np.array(link.vertices, np.int64) for link in message.links]
     triangle_part, point_part = np.array(message.triangle_part, np.int64), np.array(message.point_part, np.int64)
     thickness = np.array(message.thickness, np.float64)
     if len(triangle_part) != len(surface) or len(thickness) != len(surface):
@@ -109,8 +117,8 @@ def measures_of(message: types.SolidParts) -> Measures:
     for given in (triangle_part, point_part):
         if len(given) and not 1 <= given.min() <= given.max() <= len(parts):
             raise InternalError("the server sent damaged parts of the solid: a part out of range")
-    if any(len(branch) == 0 or branch.max() >= len(curve.vertices) for branch in branches):
+    if any(len(branch) == 0 or branch.max() >= len(curve.vertices) for branch in branches + links):
         raise InternalError("the server sent damaged parts of the solid: a vertex out of range")
     kinds = [word(types.PartKind, part.kind) for part in parts]
-    return Measures(kinds, numbers, _places(parts, "from"), _places(parts, "to"), branches, curve, surface,
-                    triangle_part, thickness, point_part, _whole(message, numbers))
+    return Measures(kinds, numbers, _places(parts, "from"), _places(parts, "to"), branches, links, curve,
+                    surface, triangle_part, thickness, point_part, _whole(message, numbers))

@@ -21,6 +21,9 @@ constexpr double kStretch = 4;
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
 
+// Of two limbs that weigh about as much, neither is a part of the other's.
+constexpr double kMuchHeavier = 2;
+
 constexpr std::uint32_t kNoBranch = std::numeric_limits<std::uint32_t>::max();
 
 class GraphOfCurve {
@@ -81,8 +84,10 @@ class GraphOfCurve {
       std::uint32_t& owner = graph_.part[v];
       if (owner == kNoBranch || within[b] > within[owner]) owner = b;
     });
-    give_joints();
+    const std::vector<std::uint32_t> owner = graph_.part;
     for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
+    give_joints(owner, within);
+    give_links(owner);
   }
 
   template <class Visit>
@@ -92,26 +97,78 @@ class GraphOfCurve {
         visit(b, graph_.branches[b].vertices[n], is_within(graph_.branches[b], n));
   }
 
-  // What lies in the ball about a joint goes to its branch, from a place in two balls to the one that it is deeper in.
-  void give_joints() {
-    std::vector<double> depth(places_.size(), 1);
-    std::vector<std::uint32_t> part = graph_.part;
+  // A limb begins where it leaves the balls of the branch that its joint belongs to, and of others there that are much
+  // heavier: both halves of a trunk.
+  void give_joints(const std::vector<std::uint32_t>& owner, const std::vector<double>& within) {
+    std::vector<std::vector<std::uint32_t>> at_joint(places_.size());
+    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
+      for (const std::uint32_t v : {graph_.branches[b].vertices.front(), graph_.branches[b].vertices.back()})
+        at_joint[v].push_back(b);
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b) {
-      const auto& vertices = graph_.branches[b].vertices;
       for (const bool from_last : {false, true}) {
+        const auto& vertices = graph_.branches[b].vertices;
         const std::uint32_t joint = from_last ? vertices.back() : vertices.front();
-        if (graph_.part[joint] == b) continue;
-        for (std::size_t n = 1; n + 1 < vertices.size(); ++n) {
-          const std::uint32_t v = vertices[from_last ? vertices.size() - 1 - n : n];
-          const double way = norm(places_[v] - places_[joint]);
-          if (!(way < ball_[joint])) break;
-          if (way >= depth[v] * ball_[joint]) continue;
-          depth[v] = way / ball_[joint];
-          part[v] = graph_.part[joint];
-        }
+        if (owner[joint] == b) continue;
+        std::vector<std::uint32_t> heavier{owner[joint]};
+        for (const std::uint32_t other : at_joint[joint])
+          if (other != owner[joint] && within[other] > kMuchHeavier * within[b]) heavier.push_back(other);
+        give_joint(b, from_last, heavier);
       }
     }
-    graph_.part = std::move(part);
+  }
+
+  // How deep a place lies in the balls of a branch; below 0 outside.
+  double depth_in(std::uint32_t branch, const Vec3& at) const {
+    double depth = -std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : graph_.branches[branch].vertices)
+      depth = std::max(depth, ball_[v] - norm(places_[v] - at));
+    return depth;
+  }
+
+  void give_joint(std::uint32_t b, bool from_last, const std::vector<std::uint32_t>& heavier) {
+    const auto& vertices = graph_.branches[b].vertices;
+    const auto at = [&](std::size_t n) { return vertices[from_last ? vertices.size() - 1 - n : n]; };
+    std::uint32_t to = heavier.front();
+    double before = depth_in(to, places_[at(0)]);
+    for (std::size_t n = 1; n + 1 < vertices.size() && graph_.part[at(n)] == b; ++n) {
+      double depth = -std::numeric_limits<double>::infinity();
+      std::uint32_t deepest = to;
+      for (const std::uint32_t other : heavier) {
+        const double there = depth_in(other, places_[at(n)]);
+        if (there <= depth) continue;
+        depth = there;
+        deepest = other;
+      }
+      if (depth <= 0) {
+        // A vertex stands for half of the way to the next on either side.
+        const double inside = before > 0 ? before / (before - depth) : 0;
+        if (inside < 0.5 && n > 1) move_share(at(n - 1), to, b, 0.5 - inside);
+        if (inside > 0.5) move_share(at(n), b, to, inside - 0.5);
+        break;
+      }
+      to = deepest;
+      graph_.part[at(n)] = to;
+      move_share(at(n), b, to, 1);
+      before = depth;
+    }
+  }
+
+  // What no vertex is left of is a part of its neighbour.
+  void give_links(const std::vector<std::uint32_t>& owner) {
+    std::vector<char> has_own(graph_.branches.size(), 0);
+    for (const std::uint32_t b : graph_.part) has_own[b] = 1;
+    for (std::uint32_t b = 0; b < has_own.size(); ++b) {
+      CurveBranch& branch = graph_.branches[b];
+      if (has_own[b]) continue;
+      graph_.branches[owner[branch.vertices.front()]].share += branch.share;
+      branch.share = 0;
+    }
+  }
+
+  // Of a vertex, a part of its share, from one branch to another.
+  void move_share(std::uint32_t v, std::uint32_t from, std::uint32_t to, double part) {
+    graph_.branches[from].share -= part * share_[v];
+    graph_.branches[to].share += part * share_[v];
   }
 
   Vec3 mean_place(const CurveBranch& branch) const {

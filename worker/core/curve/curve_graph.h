@@ -21,7 +21,7 @@ struct CurveBranch {
   std::vector<std::uint32_t> vertices;  ///< from one to the other
   double length = 0;                    ///< along the line
   double straight_length = 0;           ///< from node to node
-  double share = 0;                     ///< of its vertices, see CurveGraph::part
+  double share = 0;                     ///< see CurveGraph::part; 0 when no vertex is its own
   /// Of its own vertices, see CurveGraph::part, or of all where it has none; the mean along the line.
   double mean_radius = 0, least_radius = 0, greatest_radius = 0;
   /// Degrees, at `from`, to the first other branch there: 180 goes straight on; NaN without another.
@@ -38,8 +38,8 @@ struct CurveGraph {
   /// the order of their mean places, along the axis in which these are farthest apart: the two arms of a body do not
   /// change places with noise.
   std::vector<CurveBranch> branches;
-  /// Per vertex: its branch; where some meet, the heaviest, which also takes what lies in the largest ball about the
-  /// joint: a limb begins where it leaves the trunk.
+  /// Per vertex: its branch; where some meet, the heaviest, which also takes what lies in the largest balls about its own
+  /// vertices: a limb begins where it leaves the trunk, between two vertices, whose shares are parted there.
   std::vector<std::uint32_t> part;
 
   static constexpr double kAboutEqual = 0.95;

@@ -7,23 +7,21 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/groups.h"
+#include "core/base/matrix3.h"
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
+#include "core/curve/centre_lines.h"
+#include "core/curve/joined_links.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
-#include "core/solid/solid_membership.h"
+#include "core/ridge/row_band.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 
 namespace affskel::core {
 namespace {
-
-// Each pass is a step to the mean of the neighbours and a longer one back: what is shorter than about fifteen
-// segments goes, what is longer stays.
-constexpr int kPasses = 300;
-constexpr double kStep = 0.5, kStepBack = -0.51;
 
 // A tip that the ridge reaches lies no farther from it than half its limb's width and so many spacings.
 constexpr double kNearTip = 2;
@@ -72,41 +70,6 @@ Groups<std::uint32_t> neighbours_along(std::size_t vertices, std::span<const Seg
           }};
 }
 
-// Ends stay where they are.
-void make_smooth(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve,
-                 ExecutionContext* context) {
-  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
-  std::vector<Vec3> places, moved;
-  for (const SheetVertex& vertex : curve.vertices) places.push_back(vertex.position);
-  const auto move = [&](double step) {
-    moved = places;
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      const auto around = neighbours[v];
-      if (around.size() < 2) continue;
-      Vec3 mean;
-      for (const std::uint32_t to : around)
-        mean = mean + (1 / static_cast<double>(around.size())) * places[to];
-      moved[v] = places[v] + step * (mean - places[v]);
-    }
-    places.swap(moved);
-  };
-  for (int pass = 0; pass < kPasses; ++pass) {
-    throw_if_stopped(context);
-    move(kStep);
-    move(kStepBack);
-  }
-  const SolidMembership membership(solid.mesh);
-  for (std::size_t v = 0; v < places.size(); ++v) {
-    Vec3& at = curve.vertices[v].position;
-    Vec3 way = places[v] - at;
-    for (int halved = 0; halved < 4; ++halved, way = 0.5 * way) {
-      if (!membership.contains(scaled_place(lattice, (1 / lattice.spacing) * (at + way)))) continue;
-      at = at + way;
-      break;
-    }
-  }
-}
-
 // Points that no way leads to lie in fragments, which have no skeleton: the nearest vertex takes them.
 void give_the_rest(const Lattice& lattice, CurveSkeleton& curve) {
   std::vector<std::uint32_t> rest;
@@ -150,38 +113,61 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
     if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
 }
 
-// The direction of a line at its end, by a stretch of about a length; 0 where it has none.
-Vec3 direction_at_end(const CurveSkeleton& curve, const Groups<std::uint32_t>& neighbours, std::uint32_t end,
-                      double length) {
-  const Vec3 at = curve.vertices[end].position;
-  std::uint32_t before = end, v = end;
-  while (norm(curve.vertices[v].position - at) < length && (v == end || neighbours[v].size() == 2)) {
-    const auto around = neighbours[v];
-    const std::uint32_t next = around[0] == before && around.size() == 2 ? around[1] : around[0];
-    before = v;
-    v = next;
+SheetLines with_joints(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
+                       const SheetLines& lines) {
+  std::vector<Vec3> places;
+  std::vector<double> ball;
+  for (const SheetVertex& vertex : ridge.vertices) {
+    places.push_back(vertex.position);
+    ball.push_back(lattice.spacing * static_cast<double>(basis.radius[vertex.point]));
   }
-  const Vec3 way = at - curve.vertices[v].position;
-  return norm(way) > 0 ? (1 / norm(way)) * way : Vec3{};
+  return joined_links(lines, places, ball);
 }
 
-// The ridge ends before its limb does: the line goes straight on as far as the tip.  Half way there it must still be in
-// the solid.
-void move_to_tips(const Solid& solid, const Lattice& lattice, const LimbEnds& ends,
-                  std::span<const std::uint32_t> lines, CurveSkeleton& curve) {
-  const SolidMembership membership(solid.mesh);
-  const auto inside = [&](const Vec3& place) {
-    return membership.contains(scaled_place(lattice, (1 / lattice.spacing) * place));
-  };
-  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
+// In the frame's coordinates.
+Mesh surface_in_frame(const Solid& solid, const Lattice& lattice) {
+  Mesh surface = solid.mesh;
+  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
+  for (Vec3& p : surface.points) p = lattice.spacing * transposed_times(to_indices, p - lattice.grid.origin);
+  return surface;
+}
+
+void move_to_middle(const Solid& solid, const Lattice& lattice, const LimbEnds& ends,
+                    std::span<const std::uint32_t> lines, CurveSkeleton& curve, ExecutionContext* context) {
+  const Mesh surface = surface_in_frame(solid, lattice);
+  std::vector<Vec3> places, tips;
+  std::vector<char> has_tip;
   for (std::uint32_t v = 0; v < lines.size(); ++v) {
-    if (!ends.is_end[lines[v]] || neighbours[v].size() != 1) continue;
-    Vec3& at = curve.vertices[v].position;
-    const Vec3 way = ends.tip[lines[v]] - at;
-    const Vec3 along = direction_at_end(curve, neighbours, v, norm(way) + kNearTip * lattice.spacing);
-    const Vec3 tip = at + std::max(dot(way, along), 0.0) * along;
-    if (inside(tip) && inside(0.5 * (at + tip))) at = tip;
+    places.push_back(curve.vertices[v].position);
+    tips.push_back(ends.tip[lines[v]]);
+    has_tip.push_back(ends.is_end[lines[v]]);
   }
+  centre_lines({surface, curve.segments, tips, has_tip, lattice.spacing, context}, places);
+  for (std::uint32_t v = 0; v < lines.size(); ++v) curve.vertices[v].position = places[v];
+}
+
+// The line has moved since: each point goes on along it to the vertex that is nearest now, as far as that comes nearer.
+void move_points(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
+  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
+  StopCheck stop(context);
+  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    stop.did(10);
+    const Vec3 at = lattice.spacing * Vec3{double(i), double(j), double(k)};
+    const auto distance = [&](std::uint32_t v) { return norm(curve.vertices[v].position - at); };
+    std::uint32_t& nearest = curve.nearest[rank];
+    double least = distance(nearest);
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const std::uint32_t to : neighbours[nearest]) {
+        const double way = distance(to);
+        if (way >= least) continue;
+        least = way;
+        nearest = to;
+        moved = true;
+        break;
+      }
+    }
+  });
 }
 
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
@@ -192,8 +178,9 @@ void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& c
   }
 }
 
-void measure(const Lattice& lattice, CurveSkeleton& curve) {
+void measure(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
   give_the_rest(lattice, curve);
+  move_points(lattice, curve, context);
   curve.share.assign(curve.vertices.size(), 0);
   for (const std::uint32_t vertex : curve.nearest)
     curve.share[vertex] += 1 / static_cast<double>(lattice.points);
@@ -207,7 +194,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
   const LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
-  const SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
+  const SheetLines lines =
+      with_joints(lattice, basis, ridge, sheet_lines(ridge, ends.is_end, options.context));
   CurveSkeleton curve;
   curve.opened = lines.opened;
   curve.segments = lines.segments;
@@ -216,10 +204,9 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
     curve.part.push_back(ridge.part[v]);
   }
   give_points(basis, ridge, lines.vertices, curve, options.context);
-  move_to_tips(solid, lattice, ends, lines.vertices, curve);
-  make_smooth(solid, lattice, curve, options.context);
+  move_to_middle(solid, lattice, ends, lines.vertices, curve, options.context);
   find_distances(solid, lattice, curve);
-  measure(lattice, curve);
+  measure(lattice, curve, options.context);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
   std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
   for (const Segment& segment : curve.segments)

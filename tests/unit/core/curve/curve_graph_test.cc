@@ -112,6 +112,26 @@ TEST(CurveGraph, TheTrunkTakesWhatLiesInTheBallAboutAJoint) {
   EXPECT_NEAR(sum, 1, 1e-12);
 }
 
+// From the top of a trunk a link of two steps to a fork: within the ball about the top it is no part.
+TEST(CurveGraph, ALinkWithinAJointHasNoShareAndComesLast) {
+  for (const double ball : {0.5, 2.5}) {
+    Lines lines;
+    const std::uint32_t top = lines.go(lines.begin({0, 0, 0}), {0, 0, 1}, 20);
+    lines.go(top, {1, 0, 0}, 9);
+    const std::uint32_t fork = lines.go(top, {0, 1, 0}, 2);
+    for (const double x : {-1., 1.}) lines.go(fork, {x, 0, 0}, 6);
+    lines.ball = ball;
+    const CurveGraph graph = lines.graph();
+    ASSERT_EQ(graph.branches.size(), 5U);
+    double sum = 0;
+    for (const CurveBranch& branch : graph.branches) sum += branch.share;
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(graph.branches[4].kind, BranchKind::kLink);
+    EXPECT_EQ(graph.branches[4].share > 0, ball < 1);
+    EXPECT_EQ(std::count(graph.part.begin(), graph.part.end(), 4U) > 0, ball < 1);
+  }
+}
+
 TEST(CurveGraph, AnglesAreToTheFirstOtherBranch) {
   const CurveGraph graph = body().graph();
   EXPECT_NEAR(graph.branches[1].angle, 90, 1e-9);

@@ -1,0 +1,139 @@
+#include "limb_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+#include "client/files/read/read_shape.h"
+#include "core/base/disjoint_sets.h"
+#include "core/base/groups.h"
+#include "core/quality/similarity.h"
+#include "core/spatial/point_index.h"
+
+namespace affskel::experiments {
+namespace {
+
+using Neighbours = core::Groups<std::uint32_t>;
+
+// Per vertex: how far it lies from one of them along edges (Dijkstra); infinity where none lead.
+std::vector<double> ways_from(std::uint32_t start, const core::Mesh& mesh, const Neighbours& beside) {
+  std::vector<double> way(mesh.points.size(), std::numeric_limits<double>::infinity());
+  std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>,
+                      std::greater<>>
+      front;
+  way[start] = 0;
+  front.push({0, start});
+  while (!front.empty()) {
+    const auto [reached, at] = front.top();
+    front.pop();
+    if (reached > way[at]) continue;
+    for (const std::uint32_t to : beside[at]) {
+      const double there = reached + norm(mesh.points[to] - mesh.points[at]);
+      if (there >= way[to]) continue;
+      way[to] = there;
+      front.push({there, to});
+    }
+  }
+  return way;
+}
+
+// The same surface in more triangles: along the edges of few the ways turn, and ends arise where none are.
+core::Mesh refined(core::Mesh mesh) {
+  constexpr std::size_t kTriangles = 20'000;
+  while (mesh.triangles.size() < kTriangles) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;  // of edges
+    const auto between = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [known, fresh] =
+          middle.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.points.size()));
+      if (fresh) mesh.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+      return known->second;
+    };
+    std::vector<core::Triangle> four;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::uint32_t ab = between(a, b), bc = between(b, c), ca = between(c, a);
+      four.insert(four.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    mesh.triangles = std::move(four);
+  }
+  return mesh;
+}
+
+// Where a height on the vertices of a mesh is greatest, and falls by `least` at least before it rises to a greater one
+// (persistence: Edelsbrunner, Letscher and Zomorodian 2002).
+std::vector<std::uint32_t> peaks(const std::vector<double>& height, const Neighbours& beside, double least) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < height.size(); ++v)
+    if (std::isfinite(height[v])) order.push_back(v);
+  const auto higher = [&](std::uint32_t a, std::uint32_t b) { return height[a] > height[b]; };
+  std::stable_sort(order.begin(), order.end(), higher);
+  std::vector<std::uint32_t> found{order.front()};
+  core::DisjointSets pieces(height.size());  // of what is higher
+  std::vector<std::uint32_t> top(height.size());
+  std::iota(top.begin(), top.end(), 0U);
+  for (const std::uint32_t v : order) {
+    for (const std::uint32_t w : beside[v]) {
+      if (height[w] < height[v]) continue;
+      std::uint32_t a = top[pieces.find(v)], b = top[pieces.find(w)];
+      if (!pieces.unite(v, w)) continue;
+      if (higher(b, a)) std::swap(a, b);
+      top[pieces.find(v)] = a;
+      if (height[b] - height[v] >= least) found.push_back(b);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<core::Vec3> ends_of_limbs(const Job& job, double length) {
+  const core::Mesh mesh = refined(job.mesh);
+  const Neighbours beside(mesh.points.size(), [&](const auto& put) {
+    for (const core::Triangle& t : mesh.triangles)
+      for (std::size_t k = 0; k < 3; ++k) put(t[k], t[(k + 1) % 3]);
+  });
+  const Cloud all = all_points(job);
+  const core::Vec3 centre = all.place[static_cast<std::size_t>(
+      std::max_element(all.erosion.begin(), all.erosion.end()) - all.erosion.begin())];
+  const std::uint32_t start = core::PointIndex(mesh.points).find(centre).number;
+  std::vector<core::Vec3> ends;
+  for (const std::uint32_t v : peaks(ways_from(start, mesh, beside), beside, length))
+    ends.push_back(mesh.points[v]);
+  return ends;
+}
+
+std::vector<NamedMesh> solids_to_compare(const Setting& setting) {
+  std::vector<NamedMesh> solids;
+  for (const std::string& file : setting.meshes) solids.push_back({file, client::read_shape(file).mesh()});
+  if (!solids.empty()) return solids;
+  if (!setting.quick) solids.push_back({"body of 5000", setting.body(5000)});
+  for (NamedMesh& solid : limbed_solids(setting.quick ? 1000 : 5000)) {
+    solids.push_back(std::move(solid));
+    if (setting.quick && solids.size() == 2) break;
+  }
+  return solids;
+}
+
+std::vector<core::Vec3> points_along(std::span<const core::Vec3> places,
+                                     std::span<const core::Segment> segments, double step) {
+  std::vector<core::Vec3> points(places.begin(), places.end());
+  for (const core::Segment& segment : segments) {
+    const core::Vec3 from = places[segment[0]], way = places[segment[1]] - from;
+    const double parts = std::ceil(norm(way) / step);
+    for (double n = 1; n < parts; ++n) points.push_back(from + (n / parts) * way);
+  }
+  return points;
+}
+
+std::string alike(std::span<const core::Vec3> clean, std::span<const core::Vec3> noisy, double radius) {
+  const core::Similarity both = core::similarity(clean, noisy);
+  return format("%.0f / %.0f %%", 100 * both.b_in_a.share_within(radius),
+                100 * both.a_in_b.share_within(radius));
+}
+
+}  // namespace affskel::experiments

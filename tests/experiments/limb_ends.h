@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/mesh/mesh.h"
+#include "experiments.h"
+#include "job.h"
+#include "limbed_solids.h"
+
+namespace affskel::experiments {
+
+/// What the comparisons with mean curvature skeletons share.
+
+/// A limb is longer than this share of the longest side.
+inline constexpr double kLongLimb = 0.08;
+
+/// The meshes of the setting, or solids of our own.
+std::vector<NamedMesh> solids_to_compare(const Setting& setting);
+
+/// The ends of limbs longer than `length`: peaks of the way along the surface from the place of the greatest E.  The
+/// crotch, the back and the calves are none.
+std::vector<core::Vec3> ends_of_limbs(const Job& job, double length);
+
+/// The vertices, and places along the segments no farther apart than `step`.
+std::vector<core::Vec3> points_along(std::span<const core::Vec3> places,
+                                     std::span<const core::Segment> segments, double step);
+
+/// "98 / 97 %": of the noisy ones within the radius of the clean, and back.
+std::string alike(std::span<const core::Vec3> clean, std::span<const core::Vec3> noisy, double radius);
+
+}  // namespace affskel::experiments

@@ -1,0 +1,31 @@
+#include "core/curve/curved.h"
+
+#include <vector>
+
+#include "core/curve/limb_radii.h"
+
+namespace affskel::core {
+
+Curved::Curved(const Mesh& mesh, double h, const std::string& directions)
+    : solid_(mesh, {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}}, directions),
+      basis_(ridge_basis(solid_.lattice, solid_.field)) {
+  RidgeSheetOptions options;
+  options.basis = &basis_;
+  ridge_ = ridge_sheet(solid_.solid, solid_.lattice, solid_.field, options);
+}
+
+CurveSkeleton Curved::at(double least_reach) const {
+  CurveOptions options;
+  options.least_reach = least_reach;
+  return curve_skeleton(solid_.solid, solid_.lattice, basis_, ridge_, options);
+}
+
+CurveGraph Curved::graph(const CurveSkeleton& curve) const {
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : curve.vertices) places.push_back(place(vertex));
+  const std::vector<double> radius =
+      limb_radii({places, curve.segments, curve.share, curve.distance, solid_.solid.volume});
+  return curve_graph(places, curve.segments, radius, curve.distance, curve.share);
+}
+
+}  // namespace affskel::core

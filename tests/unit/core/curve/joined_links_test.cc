@@ -1,0 +1,103 @@
+#include "core/curve/joined_links.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace affskel::core {
+namespace {
+
+// Two joints `apart` from each other, with lines of 3 steps from each, and a link of two steps between them.
+struct Fork {
+  std::vector<Vec3> places;
+  std::vector<double> ball;
+  SheetLines lines;
+
+  explicit Fork(double apart) {
+    add({0, 0, 0});
+    add({apart, 0, 0});
+    add({apart / 2, 0, 0});
+    lines.segments = {{0, 2}, {1, 2}};
+    for (const double y : {-1., 1.}) {
+      leave(0, {-1, y, 0});
+      leave(1, {1, y, 0});
+    }
+    std::sort(lines.segments.begin(), lines.segments.end());
+    ball.assign(places.size(), 1);
+  }
+
+  std::vector<std::uint32_t> degrees(const SheetLines& of) const {
+    std::vector<std::uint32_t> degree(of.vertices.size(), 0);
+    for (const Segment& segment : of.segments)
+      for (const std::uint32_t v : segment) ++degree[v];
+    return degree;
+  }
+
+ private:
+  void add(const Vec3& at) {
+    lines.vertices.push_back(static_cast<std::uint32_t>(places.size()));
+    places.push_back(at);
+  }
+  void leave(std::uint32_t from, const Vec3& step) {
+    Vec3 at = places[from];
+    for (int n = 0; n < 3; ++n) {
+      at = at + step;
+      add(at);
+      lines.segments.push_back({from, static_cast<std::uint32_t>(places.size() - 1)});
+      from = static_cast<std::uint32_t>(places.size() - 1);
+    }
+  }
+};
+
+std::size_t count(const std::vector<std::uint32_t>& degrees, std::uint32_t which) {
+  return static_cast<std::size_t>(std::count(degrees.begin(), degrees.end(), which));
+}
+
+TEST(JoinedLinks, JointsInOneBallBecomeOne) {
+  Fork fork(0.9);
+  fork.ball[1] = 1.5;
+  const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
+  const auto degrees = fork.degrees(joined);
+  EXPECT_EQ(count(degrees, 4), 1U);
+  EXPECT_EQ(count(degrees, 1), 4U);
+  EXPECT_EQ(joined.vertices.size(), fork.lines.vertices.size() - 2);
+  EXPECT_EQ(joined.segments.size(), joined.vertices.size() - 1) << "still a tree";
+  EXPECT_TRUE(std::count(joined.vertices.begin(), joined.vertices.end(), 1U))
+      << "that of the larger ball stays";
+  EXPECT_FALSE(std::count(joined.vertices.begin(), joined.vertices.end(), 0U));
+}
+
+TEST(JoinedLinks, JointsFartherApartStay) {
+  const Fork fork(1.1);
+  const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
+  EXPECT_EQ(joined.vertices, fork.lines.vertices);
+  EXPECT_EQ(joined.segments, fork.lines.segments);
+}
+
+// Two links between two joints: one goes, the other becomes a loop, or stays where it has no room for one.
+TEST(JoinedLinks, ALoopStays) {
+  for (const bool has_room : {false, true}) {
+    Fork fork(0.9);
+    const auto add = [&](std::uint32_t from, const Vec3& at) {
+      const auto fresh = static_cast<std::uint32_t>(fork.places.size());
+      fork.places.push_back(at);
+      fork.ball.push_back(1);
+      fork.lines.vertices.push_back(fresh);
+      fork.lines.segments.push_back({from, fresh});
+      return fresh;
+    };
+    std::uint32_t end = add(0, {0.3, 0, 2});
+    if (has_room) end = add(end, {0.6, 0, 2});
+    fork.lines.segments.push_back({1, end});
+    std::sort(fork.lines.segments.begin(), fork.lines.segments.end());
+    const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
+    EXPECT_EQ(joined.segments.size(), joined.vertices.size()) << "one loop";
+    EXPECT_EQ(count(fork.degrees(joined), 6), has_room ? 1U : 0U);
+    for (const auto& [a, b] : joined.segments) EXPECT_NE(a, b);
+    EXPECT_EQ(std::adjacent_find(joined.segments.begin(), joined.segments.end()), joined.segments.end());
+  }
+}
+
+}  // namespace
+}  // namespace affskel::core

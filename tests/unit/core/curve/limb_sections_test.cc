@@ -1,0 +1,52 @@
+#include "core/curve/limb_sections.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/unit.h"
+#include "core/shapes/shapes.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+TEST(LimbSections, OfATiltedPlaneThroughACylinderIsAnEllipseAboutItsAxis) {
+  const Mesh cylinder = make_cylinder(1, 8, 128);
+  const LimbSections sections(cylinder);
+  for (const double tilt : {0., 0.4}) {
+    const Vec3 across = unit({tilt, 0, 1});
+    const LimbSection section = sections.at({0.3, -0.2, 4}, across, 3);
+    EXPECT_NEAR(section.centre.x, 0, 0.02) << tilt;
+    EXPECT_NEAR(section.centre.y, 0, 0.02) << tilt;
+    EXPECT_NEAR(dot(section.centre - Vec3{0.3, -0.2, 4}, across), 0, 1e-12);
+    EXPECT_NEAR(section.radius, std::sqrt(1 / across.z), 0.01) << "of a disc as large";
+  }
+}
+
+// The wedge between two planes through the axis of a torus has its centroid farther out than the circle.
+TEST(LimbSections, OfATorusIsADiscAboutItsCircle) {
+  const Mesh torus = make_torus(3, 1, 20000);
+  const LimbSection section = LimbSections(torus).at({2.6, 0, 0.1}, {0, 1, 0}, 4);
+  EXPECT_NEAR(section.centre.x, 3, 0.02);
+  EXPECT_NEAR(section.centre.z, 0, 0.02);
+  EXPECT_NEAR(section.radius, 1, 0.01);
+}
+
+TEST(LimbSections, ANeighbourInThePlaneIsNotSeen) {
+  const Mesh both = joined(make_cylinder(1, 8, 64), moved(make_cylinder(1, 8, 64), {2.1, 0, 0}));
+  const LimbSection section = LimbSections(both).at({0.1, 0, 4}, {0, 0, 1}, 4);
+  EXPECT_NEAR(section.centre.x, 0, 0.01);
+  EXPECT_NEAR(section.radius, 1, 0.01);
+}
+
+// Rays along a long box end at kWidest times the middle one.
+TEST(LimbSections, RaysAreNoLongerThanTwiceTheMiddleOne) {
+  const Mesh box = make_box(20, 1, 1);
+  const LimbSection section = LimbSections(box).at({10, 0.5, 0.5}, {0, 0, 1}, 30);
+  EXPECT_NEAR(section.centre.x, 10, 1e-9);
+  EXPECT_LT(section.radius, 2);
+}
+
+}  // namespace
+}  // namespace affskel::core

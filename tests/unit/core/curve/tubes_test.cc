@@ -1,0 +1,165 @@
+// What is measured of tubes and trees of them, against closed forms: lengths within a spacing, angles within two degrees,
+// volumes of parts within 1 %.
+#include "core/curve/tubes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/curve/curved.h"
+#include "core/shapes/shapes.h"
+
+namespace affskel::core {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kEdge = 0.2, kPoints = 25'000;
+
+struct Measured {
+  double h = 0, volume = 0;
+  CurveGraph graph;
+  std::vector<Vec3> places;  // per vertex
+
+  // The branch whose far end is nearest to a place.
+  const CurveBranch& to(const Vec3& place) const {
+    const auto distance = [&](const CurveBranch& branch) {
+      return norm(places[branch.vertices.back()] - place);
+    };
+    return *std::min_element(
+        graph.branches.begin(), graph.branches.end(),
+        [&](const CurveBranch& a, const CurveBranch& b) { return distance(a) < distance(b); });
+  }
+};
+
+Measured measured(const Mesh& mesh, double points = kPoints) {
+  Measured result;
+  result.volume = make_solid(mesh).volume;
+  result.h = std::cbrt(result.volume / points);
+  const Curved solid(mesh, result.h, "sphere:320");
+  const CurveSkeleton curve = solid.at();
+  result.graph = solid.graph(curve);
+  for (const SheetVertex& vertex : curve.vertices) result.places.push_back(solid.place(vertex));
+  return result;
+}
+
+std::vector<Tube> all_turned(std::vector<Tube> tubes) {
+  for (Tube& tube : tubes) tube = {turned(tube.from), turned(tube.to), tube.radius};
+  return tubes;
+}
+
+TEST(Tubes, OneIsAsLongAsItsAxis) {
+  const std::vector<Tube> tubes = all_turned({{{0, 0, 0}, {0, 0, 10}, 1}});
+  const Measured tube = measured(tube_mesh(tubes, kEdge));
+  ASSERT_EQ(tube.graph.branches.size(), 1U);
+  const CurveBranch& axis = tube.graph.branches[0];
+  EXPECT_EQ(axis.kind, BranchKind::kLine);
+  EXPECT_NEAR(axis.length, 10, tube.h);
+  EXPECT_NEAR(axis.straight_length, 10, tube.h);
+  EXPECT_NEAR(axis.mean_radius, 1, 0.01);
+  EXPECT_NEAR(axis.greatest_radius, 1, 0.02);
+  for (const std::uint32_t v : axis.vertices) {
+    const Vec3& at = tube.places[v];
+    const Vec3 along = tubes[0].to - tubes[0].from;
+    EXPECT_LT(norm(at - (dot(at, along) / dot(along, along)) * along), 0.1 * tube.h) << "beside the axis";
+  }
+}
+
+TEST(Tubes, ATorusIsItsCoreCircle) {
+  const Measured torus = measured(make_torus(3, 0.7, 5000));
+  ASSERT_EQ(torus.graph.branches.size(), 1U);
+  const CurveBranch& circle = torus.graph.branches[0];
+  EXPECT_EQ(circle.kind, BranchKind::kLoop);
+  EXPECT_NEAR(circle.length, 6 * pi, torus.h);
+  EXPECT_NEAR(circle.least_radius, 0.7, 0.03);
+  EXPECT_NEAR(circle.greatest_radius, 0.7, 0.03);
+  for (const Vec3& at : torus.places) {
+    EXPECT_NEAR(std::hypot(at.x, at.y), 3, 0.5 * torus.h);
+    EXPECT_NEAR(at.z, 0, 0.1 * torus.h);
+  }
+}
+
+// Two turns.
+TEST(Tubes, AHelixIsAsLongAsItsAxis) {
+  constexpr int kParts = 60;
+  std::vector<Tube> tubes;
+  double length = 0;
+  const auto at = [](int n) {
+    const double turn = 4 * pi * n / kParts;
+    return Vec3{2 * std::cos(turn), 2 * std::sin(turn), 1.5 * turn / pi};
+  };
+  for (int n = 0; n < kParts; ++n) {
+    tubes.push_back({at(n), at(n + 1), 0.4});
+    length += norm(at(n + 1) - at(n));
+  }
+  const Measured helix = measured(tube_mesh(tubes, 0.15));
+  ASSERT_EQ(helix.graph.branches.size(), 1U);
+  EXPECT_NEAR(helix.graph.branches[0].length, length, 1.5 * helix.h);  // 320 times as long
+  EXPECT_NEAR(helix.graph.branches[0].mean_radius, 0.4, 0.01);
+}
+
+// An arm from the middle of a trunk, at some angles.
+TEST(Tubes, AnArmHasItsLengthAngleAndVolume) {
+  for (const double angle : {90., 60.}) {
+    const double turn = angle * pi / 180;
+    const std::vector<Tube> tubes = all_turned(
+        {{{0, 0, -10}, {0, 0, 10}, 1}, {{0, 0, 0}, {8 * std::sin(turn), 0, 8 * std::cos(turn)}, 0.5}});
+    const Measured solid = measured(tube_mesh(tubes, 0.12));
+    ASSERT_EQ(solid.graph.branches.size(), 3U) << angle;
+    const CurveBranch& arm = solid.to(tubes[1].to);
+    EXPECT_NEAR(arm.length, 8, solid.h) << angle;
+    EXPECT_NEAR(arm.mean_radius, 0.5, 0.01) << angle;
+    EXPECT_NEAR(std::min(arm.angle, 180 - arm.angle), angle, 2);
+    EXPECT_NEAR(arm.share * solid.volume / volume_outside(tubes[1], tubes[0]), 1, 0.01) << angle;
+    for (const Vec3& end : {tubes[0].from, tubes[0].to}) EXPECT_NEAR(solid.to(end).length, 10, solid.h);
+    double sum = 0;
+    for (const CurveBranch& branch : solid.graph.branches) sum += branch.share;
+    EXPECT_NEAR(sum, 1, 1e-9);
+  }
+}
+
+// Two forks above a trunk.
+TEST(Tubes, ATreeHasTheLengthsAndAnglesOfItsBranches) {
+  const std::vector<Tube> tubes = all_turned({{{0, 0, -8}, {0, 0, 0}, 1},
+                                              {{0, 0, 0}, {4, 0, 5}, 0.7},
+                                              {{0, 0, 0}, {-4, 0, 5}, 0.7},
+                                              {{4, 0, 5}, {5, 3, 9}, 0.5},
+                                              {{4, 0, 5}, {8, -2, 8}, 0.5},
+                                              {{-4, 0, 5}, {-5, -3, 9}, 0.5},
+                                              {{-4, 0, 5}, {-8, 2, 8}, 0.5}});
+  const Measured tree = measured(tube_mesh(tubes, kEdge));
+  ASSERT_EQ(tree.graph.branches.size(), 7U);
+  EXPECT_EQ(tree.graph.nodes.size(), 8U);
+  const auto angle = [](const Vec3& a, const Vec3& b) {
+    return 180 / pi * std::acos(dot(a, b) / (norm(a) * norm(b)));
+  };
+  EXPECT_NEAR(tree.to(tubes[0].from).length, 8, tree.h);
+  for (std::size_t n = 1; n < tubes.size(); ++n) {
+    const Tube& before = tubes[n < 3 ? 0 : (n - 1) / 2];
+    const Vec3 back = before.from - before.to;
+    const CurveBranch& branch = tree.to(tubes[n].to);
+    EXPECT_NEAR(branch.length, norm(tubes[n].to - tubes[n].from), tree.h) << n;
+    EXPECT_NEAR(branch.mean_radius, tubes[n].radius, 0.02) << n;
+    EXPECT_NEAR(branch.angle, angle(tubes[n].to - tubes[n].from, back), 2) << n;
+  }
+}
+
+// Two arms, a neck and a trunk that meet in one place: a joint of four, whatever links the lattice leaves.
+TEST(Tubes, FourThatMeetHaveOneJoint) {
+  const std::vector<Tube> tubes = all_turned({{{0, 0, -8}, {0, 0, 0}, 1},
+                                              {{0, 0, 0}, {5, 0, 0}, 0.5},
+                                              {{0, 0, 0}, {-5, 0, 0}, 0.5},
+                                              {{0, 0, 0}, {0, 0, 4}, 0.6}});
+  const Measured solid = measured(tube_mesh(tubes, kEdge));
+  ASSERT_EQ(solid.graph.branches.size(), 4U);
+  ASSERT_EQ(solid.graph.nodes.size(), 5U);
+  EXPECT_EQ(*std::max_element(solid.graph.degree.begin(), solid.graph.degree.end()), 4U);
+  for (std::size_t n = 1; n < 3; ++n) EXPECT_NEAR(solid.to(tubes[n].to).angle, 90, 2);
+  EXPECT_NEAR(solid.to(tubes[3].to).angle, 180, 2);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,304 @@
+#include "core/curve/centre_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "core/base/groups.h"
+#include "core/base/matrix3.h"
+#include "core/base/unit.h"
+#include "core/curve/limb_sections.h"
+#include "core/mesh/polylines.h"
+#include "core/solid/solid_membership.h"
+#include "core/spatial/distance_to_mesh.h"
+
+namespace affskel::core {
+namespace {
+
+// Each pass is a step to the mean of the neighbours and a longer one back: what is shorter than about fifteen
+// segments goes, what is longer stays.
+constexpr int kPasses = 300, kLaterPasses = 40;
+constexpr double kStep = 0.5, kStepBack = -0.51;
+
+constexpr int kRounds = 5;        // sections are across lines that the last round has moved
+constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
+constexpr double kJoint = 1.5;    // balls: nearer to a joint a section has a part of the other limbs
+constexpr double kSeen = 4;       // radii: of the rays that see a section
+// Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
+// one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
+constexpr double kRound = 0.75, kFlat = 0.55;
+constexpr double kSteep = 0.5;   // see centre_lines()
+constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
+
+// How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
+constexpr double kHold = 0.02;
+
+class CentreLines {
+ public:
+  CentreLines(const CentreLinesInput& input, std::vector<Vec3>& places)
+      : input_(input),
+        places_(places),
+        sections_(input.surface),
+        distance_(input.surface),
+        membership_(input.surface),
+        lines_(polylines(places.size(), input.segments)),
+        neighbours_(places.size(), [&](const auto& put) {
+          for (const auto& [a, b] : input.segments) {
+            put(a, b);
+            put(b, a);
+          }
+        }) {}
+
+  void run() {
+    const std::vector<Vec3> before = places_;
+    make_smooth(kPasses, false);
+    keep_inside(before);
+    for (int round = 0; round < kRounds; ++round) {
+      throw_if_stopped(input_.context);
+      to_middle();
+      meet();
+      make_smooth(kLaterPasses, true);
+      keep_inside(before);
+    }
+    for (const auto& line : lines_) find_ends(line);
+  }
+
+ private:
+  bool is_joint(std::uint32_t v) const { return neighbours_[v].size() > 2; }
+  bool inside(const Vec3& place) const { return membership_.contains(place); }
+
+  // Ends stay where they are.
+  void make_smooth(int passes, bool joints_stay) {
+    std::vector<Vec3> moved;
+    const auto move = [&](double step) {
+      moved = places_;
+      for (std::uint32_t v = 0; v < places_.size(); ++v) {
+        const auto around = neighbours_[v];
+        if (around.size() < 2 || (joints_stay && around.size() > 2)) continue;
+        Vec3 mean;
+        for (const std::uint32_t to : around)
+          mean = mean + (1 / static_cast<double>(around.size())) * places_[to];
+        moved[v] = places_[v] + step * (mean - places_[v]);
+      }
+      places_.swap(moved);
+    };
+    for (int pass = 0; pass < passes; ++pass) {
+      throw_if_stopped(input_.context);
+      move(kStep);
+      move(kStepBack);
+    }
+  }
+
+  // What has left the solid goes back a half, a quarter ... of its way.
+  void keep_inside(const std::vector<Vec3>& before) {
+    for (std::size_t v = 0; v < places_.size(); ++v) {
+      Vec3 way = places_[v] - before[v];
+      for (int halved = 0; !inside(before[v] + way) && way != Vec3{}; ++halved)
+        way = halved < 4 ? 0.5 * way : Vec3{};
+      places_[v] = before[v] + way;
+    }
+  }
+
+  // How many vertices from an end of a line lie near the joint there; 0 where none is.
+  std::size_t in_joint(const std::vector<std::uint32_t>& line, bool from_last) const {
+    const auto at = [&](std::size_t n) { return line[from_last ? line.size() - 1 - n : n]; };
+    if (!is_joint(at(0))) return 0;
+    const double near = kJoint * distance_.nearest(places_[at(0)]);
+    std::size_t count = 1;
+    while (count < line.size() && norm(places_[at(count)] - places_[at(0)]) < near) ++count;
+    return count;
+  }
+
+  struct Free {
+    std::size_t first = 0, last = 0;  // of a line, the vertices that are in no joint
+  };
+  Free free_part(const std::vector<std::uint32_t>& line) const {
+    return {in_joint(line, false), line.size() - in_joint(line, true)};
+  }
+
+  // Of a line at its n-th vertex, by a stretch on both sides.
+  Vec3 direction(const std::vector<std::uint32_t>& line, std::size_t n, double stretch) const {
+    const bool closed = line.front() == line.back() && !is_joint(line.front());
+    const std::size_t count = closed ? line.size() - 1 : line.size();
+    const auto go = [&](std::size_t step) {  // 1 forth, count - 1 back
+      std::size_t k = n % count;
+      for (std::size_t steps = 0; steps < count / 2; ++steps) {
+        if (norm(places_[line[k]] - places_[line[n]]) >= stretch) break;
+        if (!closed && (step == 1 ? k + 1 == count : k == 0)) break;
+        k = (k + step) % count;
+      }
+      return places_[line[k]];
+    };
+    return unit(go(1) - go(count - 1));
+  }
+
+  // How far a vertex is from the middle of its section, and how much that says.
+  struct Shift {
+    Vec3 way;
+    double weight = 0, ball = 0;
+  };
+
+  Shift shift_of(const std::vector<std::uint32_t>& line, std::size_t n) const {
+    const Vec3& at = places_[line[n]];
+    Shift shift;
+    shift.ball = distance_.nearest(at);
+    const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
+    if (across == Vec3{} || !(shift.ball > 0)) return shift;
+    const LimbSection section = sections_.at(at, across, kSeen * shift.ball);
+    if (!inside(section.centre)) return shift;
+    const double roundness = distance_.nearest(section.centre) / std::max(section.radius, shift.ball);
+    shift.weight = std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
+    shift.way = section.centre - at;
+    return shift;
+  }
+
+  // Each goes by the mean of what lies within a radius on either side, so that no bend is narrower.
+  void to_middle() {
+    for (const auto& line : lines_) {
+      const Free free = free_part(line);
+      std::vector<Shift> shifts;
+      std::vector<double> along;
+      for (std::size_t n = free.first; n < free.last; ++n) {
+        shifts.push_back(shift_of(line, n));
+        along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - places_[line[n - 1]]));
+      }
+      std::size_t low = 0;
+      for (std::size_t n = 0; n < shifts.size(); ++n) {
+        const double stretch = kDirection * shifts[n].ball;
+        while (along[n] - along[low] > stretch) ++low;
+        Vec3 sum;
+        double count = 0;
+        for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count)
+          sum = sum + shifts[k].weight * shifts[k].way;
+        while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
+        Vec3& at = places_[line[free.first + n]];
+        at = at + (1 / count) * sum;
+      }
+    }
+  }
+
+  // Joints, and what lies in their balls.
+  void meet() {
+    std::vector<Free> free;
+    for (const auto& line : lines_) free.push_back(free_part(line));
+    std::vector<Matrix3> sum(places_.size(), Matrix3{});
+    std::vector<Vec3> side(places_.size());
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      if (free[l].first >= free[l].last) continue;
+      for (const bool from_last : {false, true}) {
+        const std::uint32_t joint = from_last ? lines_[l].back() : lines_[l].front();
+        if (is_joint(joint)) add_line(lines_[l], free[l], from_last, sum[joint], side[joint]);
+      }
+    }
+    for (std::uint32_t v = 0; v < places_.size(); ++v)
+      if (is_joint(v)) move_joint(v, sum[v], side[v]);
+    for (std::size_t l = 0; l < lines_.size(); ++l) draw_straight(lines_[l], free[l]);
+  }
+
+  // |(x - q) x t|^2, by the square of the limb's thickness there.
+  void add_line(const std::vector<std::uint32_t>& line, const Free& free, bool from_last, Matrix3& sum,
+                Vec3& side) const {
+    const std::size_t n = from_last ? free.last - 1 : free.first;
+    const Vec3& q = places_[line[n]];
+    const double ball = distance_.nearest(q);
+    std::size_t far = n;
+    while (norm(places_[line[far]] - q) < 2 * kDirection * ball + input_.spacing &&
+           (from_last ? far > free.first : far + 1 < free.last))
+      far += from_last ? std::size_t(-1) : 1;
+    const Vec3 t = unit(places_[line[far]] - q);
+    if (t == Vec3{}) return;
+    const double weight = ball * ball;
+    const Vec3 to = q - dot(q, t) * t;
+    side = side + weight * to;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3 column{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+      column = column - t[static_cast<int>(k)] * t;
+      sum[k] = sum[k] + weight * column;
+    }
+  }
+
+  void move_joint(std::uint32_t v, Matrix3 sum, Vec3 side) {
+    const double trace = sum[0].x + sum[1].y + sum[2].z;
+    if (!(trace > 0)) return;
+    const double hold = kHold * trace;
+    for (int k = 0; k < 3; ++k) {
+      sum[static_cast<std::size_t>(k)] =
+          sum[static_cast<std::size_t>(k)] +
+          hold * Vec3{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+    }
+    side = side + hold * places_[v];
+    const Vec3 to = transposed_times(inverse_transposed(sum), side);
+    const Vec3 way = to - places_[v];
+    const double ball = distance_.nearest(places_[v]);
+    if (norm(way) < ball) places_[v] = to;  // else it would leave where it is known to be inside
+  }
+
+  // From the joint to the first vertex that is free, and from joint to joint where none is.
+  void draw_straight(const std::vector<std::uint32_t>& line, const Free& free) {
+    const auto draw = [&](std::size_t from, std::size_t to) {
+      const Vec3 a = places_[line[from]], b = places_[line[to]];
+      for (std::size_t n = from + 1; n < to; ++n)
+        places_[line[n]] = a + (static_cast<double>(n - from) / static_cast<double>(to - from)) * (b - a);
+    };
+    if (free.first >= free.last) {
+      if (line.front() != line.back()) draw(0, line.size() - 1);
+      return;
+    }
+    if (free.first > 0) draw(0, free.first);
+    if (free.last < line.size()) draw(free.last - 1, line.size() - 1);
+  }
+
+  void find_ends(const std::vector<std::uint32_t>& line) {
+    for (const bool from_last : {false, true}) {
+      const std::uint32_t end = from_last ? line.back() : line.front();
+      if (line.size() > 1 && neighbours_[end].size() == 1 && input_.has_tip[end]) find_end(line, from_last);
+    }
+  }
+
+  // The line is gone along, and straight on beyond its end.
+  void find_end(const std::vector<std::uint32_t>& line, bool from_last) {
+    const auto at = [&](std::size_t n) -> Vec3& {
+      return places_[line[from_last ? line.size() - 1 - n : n]];
+    };
+    const double around = kEndMoves * input_.spacing;
+    std::size_t first = 0;
+    while (first + 2 < line.size() && norm(at(first) - at(0)) < around) ++first;
+    std::size_t before = first;
+    const double stretch = 2 * kDirection * distance_.nearest(at(first)) + input_.spacing;
+    while (before + 1 < line.size() && norm(at(before) - at(first)) < stretch) ++before;
+    const Vec3 along = unit(at(first) - at(before));
+    if (along == Vec3{}) return;
+    const Vec3 from = at(first);
+    const double known = std::max({0.0, dot(input_.tip[line[from_last ? line.size() - 1 : 0]] - from, along),
+                                   dot(at(0) - from, along)});
+    const double step = input_.spacing / 4;
+    const double farthest = known + around;
+    double way = 0;
+    while (way < farthest && inside(from + (way + input_.spacing) * along) &&
+           distance_.nearest(from + way * along) - distance_.nearest(from + (way + input_.spacing) * along) <
+               kSteep * input_.spacing)
+      way += step;
+    way += input_.spacing / 2;
+    for (std::size_t n = 0; n < first; ++n)
+      at(n) = from + (way * static_cast<double>(first - n) / static_cast<double>(first)) * along;
+    if (first == 0) at(0) = from + way * along;
+  }
+
+  const CentreLinesInput& input_;
+  std::vector<Vec3>& places_;
+  const LimbSections sections_;
+  const DistanceToMesh distance_;
+  const SolidMembership membership_;
+  const std::vector<std::vector<std::uint32_t>> lines_;
+  const Groups<std::uint32_t> neighbours_;
+};
+
+}  // namespace
+
+void centre_lines(const CentreLinesInput& input, std::vector<Vec3>& places) {
+  CentreLines(input, places).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,108 @@
+#include "core/curve/joined_links.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include "core/mesh/polylines.h"
+
+namespace affskel::core {
+namespace {
+
+// Vertices, the first counted twice.
+constexpr std::size_t kLeastLoop = 4;
+
+class Joints {
+ public:
+  Joints(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball)
+      : lines_(lines),
+        places_(places),
+        ball_(ball),
+        polylines_(polylines(lines.vertices.size(), lines.segments)),
+        joint_(lines.vertices.size()),
+        gone_(polylines_.size(), 0) {
+    for (std::uint32_t v = 0; v < joint_.size(); ++v) joint_[v] = v;
+    std::vector<std::uint32_t> degree(lines.vertices.size(), 0);
+    for (const auto& line : polylines_)
+      for (const std::uint32_t v : {line.front(), line.back()}) ++degree[v];
+    for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
+      const std::uint32_t a = polylines_[n].front(), b = polylines_[n].back();
+      if (a != b && degree[a] > 2 && degree[b] > 2) links_.push_back({distance(a, b), n});
+    }
+    std::sort(links_.begin(), links_.end());
+  }
+
+  SheetLines run() {
+    for (const auto& [length, n] : links_) join(n);
+    return drawn();
+  }
+
+ private:
+  const Vec3& place(std::uint32_t v) const { return places_[lines_.vertices[v]]; }
+  double ball(std::uint32_t v) const { return ball_[lines_.vertices[v]]; }
+  double distance(std::uint32_t a, std::uint32_t b) const { return norm(place(a) - place(b)); }
+
+  // Whether lines would lie on each other, had b become a.
+  bool would_meet(std::uint32_t which, std::uint32_t a, std::uint32_t b) const {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> straight;
+    for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
+      if (n == which || gone_[n]) continue;
+      const auto end = [&](std::uint32_t v) { return joint_[v] == b ? a : joint_[v]; };
+      const std::pair<std::uint32_t, std::uint32_t> ends =
+          std::minmax({end(polylines_[n].front()), end(polylines_[n].back())});
+      if (ends.first == ends.second && polylines_[n].size() < kLeastLoop) return true;
+      if (polylines_[n].size() == 2 && !straight.insert(ends).second) return true;
+    }
+    return false;
+  }
+
+  void join(std::uint32_t n) {
+    std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
+    if (a == b || distance(a, b) >= std::max(ball(a), ball(b)) || would_meet(n, a, b)) return;
+    gone_[n] = 1;
+    if (ball(b) > ball(a)) std::swap(a, b);
+    std::replace(joint_.begin(), joint_.end(), b, a);
+  }
+
+  SheetLines drawn() const {
+    std::vector<char> stays(lines_.vertices.size());
+    for (std::uint32_t v = 0; v < stays.size(); ++v) stays[v] = joint_[v] == v;
+    for (std::uint32_t n = 0; n < polylines_.size(); ++n)
+      if (gone_[n])
+        for (std::size_t k = 1; k + 1 < polylines_[n].size(); ++k) stays[polylines_[n][k]] = 0;
+    SheetLines result;
+    result.opened = lines_.opened;
+    std::vector<std::uint32_t> number(stays.size(), 0);
+    for (std::uint32_t v = 0; v < stays.size(); ++v) {
+      if (!stays[v]) continue;
+      number[v] = static_cast<std::uint32_t>(result.vertices.size());
+      result.vertices.push_back(lines_.vertices[v]);
+    }
+    for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
+      if (gone_[n]) continue;
+      for (std::size_t k = 1; k < polylines_[n].size(); ++k)
+        result.segments.push_back({number[joint_[polylines_[n][k - 1]]], number[joint_[polylines_[n][k]]]});
+    }
+    for (Segment& segment : result.segments)
+      if (segment[0] > segment[1]) std::swap(segment[0], segment[1]);
+    std::sort(result.segments.begin(), result.segments.end());
+    return result;
+  }
+
+  const SheetLines& lines_;
+  std::span<const Vec3> places_;
+  std::span<const double> ball_;
+  const std::vector<std::vector<std::uint32_t>> polylines_;  // by numbers in lines_.vertices
+  std::vector<std::uint32_t> joint_;  // per vertex: itself, or the joint that stands for it
+  std::vector<char> gone_;            // per polyline
+  std::vector<std::pair<double, std::uint32_t>> links_;
+};
+
+}  // namespace
+
+SheetLines joined_links(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball) {
+  return Joints(lines, places, ball).run();
+}
+
+}  // namespace affskel::core

@@ -1,0 +1,86 @@
+#include "core/curve/limb_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/base/plain_math.h"
+#include "core/base/unit.h"
+#include "core/mesh/box.h"
+
+namespace affskel::core {
+namespace {
+
+// A unit vector at right angles to a unit vector.
+Vec3 beside(const Vec3& a) {
+  const Vec3 axis = std::abs(a.x) <= std::abs(a.y) && std::abs(a.x) <= std::abs(a.z) ? Vec3{1, 0, 0}
+                    : std::abs(a.y) <= std::abs(a.z)                                 ? Vec3{0, 1, 0}
+                                                                                     : Vec3{0, 0, 1};
+  return unit(cross(a, axis));
+}
+
+}  // namespace
+
+LimbSections::LimbSections(const Mesh& surface) : surface_(surface), tree_(boxes_of(surface)) {
+  for (std::size_t n = 0; n < kRays; ++n) {
+    const auto [sine, cosine] = plain_sin_cos_degrees((static_cast<double>(n) + 0.5) * 360 / kRays);
+    turns_[n] = {cosine, sine};
+  }
+}
+
+LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach) const {
+  const Vec3 u = beside(across), v = cross(across, u);
+  std::array<Vec3, kRays> directions;
+  for (std::size_t n = 0; n < kRays; ++n) directions[n] = turns_[n][0] * u + turns_[n][1] * v;
+  Rays length;
+  length.fill(reach);
+  const auto cut_by = [&](const Vec3& a, const Vec3& b) {  // relative to the place, in the plane
+    const std::array<double, 2> p{dot(a, u), dot(a, v)}, q{dot(b, u), dot(b, v)};
+    for (std::size_t n = 0; n < kRays; ++n) {
+      const double left = turns_[n][0] * p[1] - turns_[n][1] * p[0];
+      const double right = turns_[n][0] * q[1] - turns_[n][1] * q[0];
+      if ((left < 0) == (right < 0)) continue;
+      const Vec3 at = a + (left / (left - right)) * (b - a);
+      const double way = dot(at, directions[n]);
+      if (way >= 0) length[n] = std::min(length[n], way);
+    }
+  };
+  const Box round{{place.x - reach, place.y - reach, place.z - reach},
+                  {place.x + reach, place.y + reach, place.z + reach}};
+  tree_.visit(round, [&](std::uint32_t t) {
+    std::array<Vec3, 3> corner;
+    std::array<double, 3> height;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = surface_.points[surface_.triangles[t][k]] - place;
+      height[k] = dot(corner[k], across);
+    }
+    std::array<Vec3, 2> ends;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if ((height[k] < 0) == (height[next] < 0)) continue;
+      ends[count++] = corner[k] + (height[k] / (height[k] - height[next])) * (corner[next] - corner[k]);
+    }
+    if (count == 2) cut_by(ends[0], ends[1]);
+  });
+  return section_of(place, directions, length);
+}
+
+LimbSection LimbSections::section_of(const Vec3& place, const std::array<Vec3, kRays>& directions,
+                                     Rays length) const {
+  Rays sorted = length;
+  std::nth_element(sorted.begin(), sorted.begin() + kRays / 2, sorted.end());
+  const double longest = kWidest * sorted[kRays / 2];
+  double squares = 0;
+  Vec3 moment;
+  for (std::size_t n = 0; n < kRays; ++n) {
+    const double way = std::min(length[n], longest);
+    squares += way * way;
+    moment = moment + (2.0 / 3 * way * way * way) * directions[n];
+  }
+  if (!(squares > 0)) return {place, 0};
+  return {place + (1 / squares) * moment, std::sqrt(squares / static_cast<double>(kRays))};
+}
+
+}  // namespace affskel::core

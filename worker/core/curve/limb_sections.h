@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/base/vec3.h"
+#include "core/mesh/mesh.h"
+#include "core/spatial/box_tree.h"
+
+namespace affskel::core {
+
+/// The section of a limb, as seen from a place within.
+struct LimbSection {
+  Vec3 centre;        ///< its centroid
+  double radius = 0;  ///< of a disc as large
+};
+
+/// Sections of a solid by planes, each as far as rays from a place within reach it: what another limb adds in the same
+/// plane is not seen.  A ray is at most kWidest times as long as the middle one, so that a plane that runs along a
+/// neighbour has no part of it.  Exact for discs, ellipses and boxes about their centres, but for the number of rays.
+/// Keeps a reference to the mesh.  Immutable after construction.
+class LimbSections {
+ public:
+  static constexpr double kWidest = 2;
+
+  /// @param surface closed.
+  explicit LimbSections(const Mesh& surface);
+
+  /// @param place within the solid.
+  /// @param across unit normal of the plane.
+  /// @param reach of the rays, > 0.
+  LimbSection at(const Vec3& place, const Vec3& across, double reach) const;
+
+ private:
+  static constexpr std::size_t kRays = 32;
+  using Rays = std::array<double, kRays>;
+
+  LimbSection section_of(const Vec3& place, const std::array<Vec3, kRays>& directions, Rays length) const;
+
+  const Mesh& surface_;
+  BoxTree tree_;
+  std::array<std::array<double, 2>, kRays> turns_;  // cosine and sine of each ray's angle
+};
+
+}  // namespace affskel::core
