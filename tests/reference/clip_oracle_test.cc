@@ -286,13 +286,13 @@ TEST(ClipOracle, SaysWhenThePointIsNotInside) {
   EXPECT_THROW(ClipOracle(core::reversed(core::make_box(1, 1, 1))), std::invalid_argument);
 }
 
-// Cells of a grid, full or empty, with sides from 0.001 to 2; nothing if parts of it only touch.
+// Cells of a grid, full or empty, with sides from 0.2 to 2; nothing if parts of it only touch.
 std::optional<Mesh> random_blocks(std::mt19937_64& random) {
   fuzz::BlockSolid blocks;
   for (std::vector<double>& planes : blocks.planes) {
     planes = {0};
     for (std::size_t cells = 1 + random() % 4; cells > 0; --cells)
-      planes.push_back(planes.back() + std::array{1.0, 0.5, 2.0, 1e-3}[random() % 4]);
+      planes.push_back(planes.back() + std::array{1.0, 0.5, 2.0, 0.2}[random() % 4]);
   }
   for (std::size_t c = blocks.cells(0) * blocks.cells(1) * blocks.cells(2); c > 0; --c)
     blocks.full.push_back(random() % 4 != 0);
