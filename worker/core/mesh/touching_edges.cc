@@ -66,6 +66,37 @@ bool take_leaves(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_
   return sort_leaves(leaves);
 }
 
+// A triangle's edge gets a vertex between its ends: the triangle keeps the second half, the first is appended.
+void divide(Mesh& mesh, std::uint32_t half_edge, std::uint32_t vertex) {
+  Triangle& t = mesh.triangles[half_edge / 3];
+  const std::uint32_t i = half_edge % 3, from = t[i], tip = t[(i + 2) % 3];
+  t[i] = vertex;
+  mesh.triangles.push_back({from, vertex, tip});
+}
+
+// Parts may touch along an edge whose ends they have in common on other ways: all but one then have a vertex within it.
+// Returns whether it has divided any; a triangle at one edge at a time.
+bool divide_doubled_edges(Mesh& mesh, bool inside_out) {
+  MatedSides doubled;
+  Edges(mesh.points.size(), mesh.triangles)
+      .for_each([&](std::uint32_t, std::uint32_t, std::span<const EdgeSide> sides) {
+        if (sides.size() <= 2) return;
+        const MatedSides mated = mate_across_solid(mesh, sides, inside_out);
+        if (!mated.empty()) doubled.insert(doubled.end(), mated.begin() + 1, mated.end());
+      });
+  std::vector<bool> used(mesh.triangles.size(), false);
+  for (const auto& [a, b] : doubled) {
+    if (used[a / 3] || used[b / 3]) continue;
+    used[a / 3] = used[b / 3] = true;
+    const Triangle& t = mesh.triangles[a / 3];
+    const auto middle = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(0.5 * (mesh.points[t[a % 3]] + mesh.points[t[(a % 3 + 1) % 3]]));
+    divide(mesh, a, middle);
+    divide(mesh, b, middle);
+  }
+  return !doubled.empty();
+}
+
 }  // namespace
 
 MatedSides mate_across_solid(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_out) {
@@ -132,6 +163,8 @@ std::uint32_t separate_touching_edges(Mesh& mesh) {
       taken[vertex] = true;
     }
     vertex = own;
+  }
+  while (divide_doubled_edges(mesh, inside_out)) {
   }
   return static_cast<std::uint32_t>(mesh.points.size()) - points;
 }

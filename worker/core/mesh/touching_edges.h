@@ -24,7 +24,8 @@ MatedSides mate_across_solid(const Mesh& mesh, std::span<const EdgeSide> sides, 
 bool is_inside_out(const Mesh& mesh);
 
 /// Gives parts of a solid that touch along edges vertices of their own there, where mate_across_solid can tell the
-/// parts.  Other edges, open ones among them, stay as they are.
+/// parts; where they share both ends all the same, one within the edge.  Other edges, open ones among them, stay as they
+/// are.
 /// @return how many vertices were added (at the end).
 std::uint32_t separate_touching_edges(Mesh& mesh);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -157,6 +158,40 @@ TEST(RepairMesh, WrapsHolesThatAreWiderThanAlpha) {
   const RepairedMesh repaired =
       repair_mesh(cut(ball, {0, 0, 10}, 4), {.kind = RepairKind::kWrap, .alpha = 1});
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(ball), 1, 0.02);
+}
+
+// A cavity that touches a notch along an edge: the cells of a cube of 27, two of them empty.
+TEST(RepairMesh, KeepsACavityThatTouchesTheOutsideAlongAnEdge) {
+  const auto empty = [](int x, int y, int z) {
+    return x < 0 || y < 0 || z < 0 || x > 2 || y > 2 || z > 2 || (x == 1 && y == z && y > 0);
+  };
+  Mesh mesh;
+  for (int i = 0; i < 64; ++i) mesh.points.push_back({double(i / 16), double(i / 4 % 4), double(i % 4)});
+  for (int cell = 0; cell < 27; ++cell) {
+    const std::array<int, 3> at{cell / 9, cell / 3 % 3, cell % 3};
+    if (empty(at[0], at[1], at[2])) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const int ahead : {0, 1}) {
+        std::array<int, 3> beside = at;
+        beside[axis] += ahead == 1 ? 1 : -1;
+        if (!empty(beside[0], beside[1], beside[2])) continue;
+        std::array<std::uint32_t, 4> round{};
+        for (std::size_t n = 0; n < 4; ++n) {
+          std::array<int, 3> corner = at;
+          corner[axis] += ahead;
+          corner[(axis + 1) % 3] += n == 1 || n == 2 ? 1 : 0;
+          corner[(axis + 2) % 3] += n >= 2 ? 1 : 0;
+          round[n] = static_cast<std::uint32_t>(16 * corner[0] + 4 * corner[1] + corner[2]);
+        }
+        if (ahead == 0) std::swap(round[1], round[3]);
+        mesh.triangles.push_back({round[0], round[1], round[2]});
+        mesh.triangles.push_back({round[0], round[2], round[3]});
+      }
+    }
+  }
+  const RepairedMesh repaired = repair_mesh(mesh);
+  EXPECT_EQ(repaired.left, "");
+  EXPECT_NEAR(repaired.volume, 25, 1e-12);
 }
 
 // A loose triangle in the corner of a box: filled, it is two triangles on each other that share a vertex with the box.
