@@ -84,7 +84,7 @@ TEST_F(TerminalTest, WarningsAndASummaryStandWhereTheCommandEnds) {
   const Shown waited = run("c submit box.off --points 800 --wait --name \"it's a box\"");
   EXPECT_EQ(waited.exit_code, 0) << waited.text;
   for (const char* part : {"the directions are only 6 different ones", "the lattice is coarse, ",
-                           "submit again with a smaller spacing than "}) {
+                           "submit again with a smaller spacing, such as "}) {
     EXPECT_EQ(count_of(waited.text, part), 1u) << part << "\n" << waited.text;
   }
   EXPECT_GE(count_of(waited.text, "\033[33mwarning:\033[0m "), 2u) << waited.text;
