@@ -52,7 +52,7 @@ def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], n
     return ordered[first], which
 
 
-def require_closed(mesh: Polygons) -> None:
+def require_closed(mesh: Polygons, file: str = "") -> None:
     """Every edge needs two faces, where vertices at one place are one, as they are for the server.
 
     Raises:
@@ -71,7 +71,7 @@ def require_closed(mesh: Polygons) -> None:
         a, b = (tuple(float(x) for x in places[vertex]) for vertex in alone[0])
         raise BadInputError(f"the mesh does not bound a solid: {len(alone)} open edges (one face only), for example from "
                             f"{a} to {b}; fill its holes by repair='fill=LENGTH' or 'wrap', by affskel-client repair, MeshLab's "
-                            "Close Holes or Blender's Fill Holes")
+                            "Close Holes or Blender's Fill Holes", file=file)
 
 
 _UNITS = ((1.0, "metres"), (100.0, "centimetres"), (1000.0, "millimetres"))
@@ -89,7 +89,7 @@ def _volume(mesh: Polygons) -> float:
     return abs(six) / 6
 
 
-def require_points(mesh: Polygons, spacing: float) -> None:
+def require_points(mesh: Polygons, spacing: float, file: str = "") -> None:
     """A lattice needs a few points.
 
     Raises:
@@ -102,4 +102,4 @@ def require_points(mesh: Polygons, spacing: float) -> None:
     unit = "".join(f", a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)
     better = f"; a spacing of {(volume / 1e5) ** (1 / 3):.2g} gives 100000 points" if volume > 0 else ""
     raise BadInputError(f"the spacing {spacing:.6g} leaves no room for sample points: the mesh measures "
-                        + " x ".join(f"{side:.3g}" for side in size) + f" units{unit}{better}")
+                        + " x ".join(f"{side:.3g}" for side in size) + f" units{unit}{better}", file=file)

@@ -54,16 +54,13 @@ def _needs_program(mesh: Mesh, spacing: Optional[float], repair: str) -> bool:
     if mesh.polygons is None:
         return bool(mesh.file) and find_program() is not None
     try:
-        require_closed(mesh.polygons)
-    except BadInputError as error:
+        require_closed(mesh.polygons, mesh.file)
+    except BadInputError:
         if repair == "auto" and find_program() is not None:
             return True
-        raise BadInputError(error.message, file=mesh.file) from None
+        raise
     if spacing is not None:
-        try:
-            require_points(mesh.polygons, _number(spacing, "spacing"))
-        except BadInputError as error:
-            raise BadInputError(error.message, file=mesh.file) from None
+        require_points(mesh.polygons, _number(spacing, "spacing"), mesh.file)
     return False
 
 

@@ -32,7 +32,7 @@ bool axes_across(const Vec3& edge, Vec3& first, Vec3& second) {
 }
 
 // In the order of their angles; of those at one angle the ones that end the solid come first.
-bool sort_leaves(std::vector<Leaf>& leaves) {
+void sort_leaves(std::vector<Leaf>& leaves) {
   std::ranges::sort(leaves, {}, &Leaf::angle);
   for (std::size_t begin = 0, end; begin < leaves.size(); begin = end) {
     for (end = begin + 1; end < leaves.size() && leaves[end].angle - leaves[end - 1].angle < kSameAngle;)
@@ -41,7 +41,6 @@ bool sort_leaves(std::vector<Leaf>& leaves) {
                      leaves.begin() + static_cast<std::ptrdiff_t>(end),
                      [](const Leaf& a, const Leaf& b) { return a.opens < b.opens; });
   }
-  return true;
 }
 
 bool take_leaves(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_out,
@@ -63,7 +62,8 @@ bool take_leaves(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_
     // A triangle that runs up along the edge has the solid at the lesser angles.
     leaves.push_back({angle, (t[corner] == low) == inside_out, side.half_edge});
   }
-  return sort_leaves(leaves);
+  sort_leaves(leaves);
+  return true;
 }
 
 // A triangle's edge gets a vertex between its ends: the triangle keeps the second half, the first is appended.

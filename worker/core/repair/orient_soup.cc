@@ -43,17 +43,13 @@ std::size_t drop_degenerate(Soup& soup) {
   return before - soup.triangles.size();
 }
 
-// What the core does with triangles, done with those of CGAL. @param change Mesh& -> a count, of which it returns.
-template <typename Change>
-std::uint64_t with_mesh(Soup& soup, Change change) {
+Mesh core_mesh(const Soup& soup) {
   Mesh mesh;
   for (const Point& p : soup.points) mesh.points.push_back({p.x(), p.y(), p.z()});
   for (const Polygon& t : soup.triangles)
     mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
                               static_cast<std::uint32_t>(t[2])});
-  const std::uint64_t count = change(mesh);
-  soup = soup_of(mesh);
-  return count;
+  return mesh;
 }
 
 // The lesser of those turned and those left: a part may have been turned as a whole.
@@ -83,9 +79,11 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
   if (soup.triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "no triangle with three different corners");
-  oriented.junctions = with_mesh(soup, [](Mesh& m) { return split_t_junctions(m.points, m.triangles); });
   const std::size_t points = soup.points.size();
-  with_mesh(soup, separate_touching_edges);
+  Mesh split = core_mesh(soup);
+  oriented.junctions = split_t_junctions(split.points, split.triangles);
+  separate_touching_edges(split);
+  soup = soup_of(split);
   const std::vector<Polygon> before = soup.triangles;
   PMP::orient_polygon_soup(soup.points, soup.triangles);
   oriented.turned = turned_since(before, soup);
