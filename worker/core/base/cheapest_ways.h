@@ -44,7 +44,8 @@ struct CheapestWays {
     for (std::uint32_t node = 0; node < source.size(); ++node)
       if (source[node] != kNoNode && starts(node)) front.push({0, node});
     while (!front.empty()) {
-      const auto [reached, node] = front.top();
+      const double reached = front.top().first;
+      const std::uint32_t node = front.top().second;
       front.pop();
       if (reached > cost[node]) continue;
       steps(node, [&](std::uint32_t to, double further, std::uint32_t name) {

@@ -3,6 +3,7 @@
 #include <CGAL/alpha_wrap_3.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "core/base/error.h"
@@ -10,6 +11,17 @@
 
 namespace affskel::core {
 namespace {
+
+// Leaves the wrapping when the context asks to stop.
+struct StopVisitor : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
+  ExecutionContext* context;
+
+  explicit StopVisitor(ExecutionContext* asked) : context(asked) {}
+  template <class Wrapper, class Gate>
+  void before_facet_treatment(const Wrapper&, const Gate&) const {
+    throw_if_stopped(context);
+  }
+};
 
 // Unit normals of vertices, weighted by area.
 std::vector<Vec3> vertex_normals(const Mesh& mesh) {
@@ -40,10 +52,13 @@ Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
   if (triangles.empty() && !mesh.triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "no triangle has an area, so there is nothing to wrap");
   SurfaceMesh wrap;
+  StopVisitor visitor(options.context);
+  const auto given = CGAL::parameters::default_values();
+  const auto stop = CGAL::parameters::visitor(std::ref(visitor));
   if (triangles.empty()) {
-    CGAL::alpha_wrap_3(points, options.alpha, options.offset, wrap);
+    CGAL::alpha_wrap_3(points, options.alpha, options.offset, wrap, given, stop);
   } else {
-    CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, wrap);
+    CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, wrap, given, stop);
   }
   Mesh wrapped = mesh_of(wrap);
   if (wrapped.triangles.empty())

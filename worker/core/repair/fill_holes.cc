@@ -72,9 +72,21 @@ double area_of(const SurfaceMesh& surface, const std::vector<Face>& faces) {
   return area;
 }
 
-void fill(SurfaceMesh& surface, Loop& loop) {
+// Leaves CGAL's search for a triangulation, which takes seconds for thousands of edges, when the context asks to stop.
+struct StopVisitor : PMP::Hole_filling::Default_visitor {
+  ExecutionContext* context;
+
+  explicit StopVisitor(ExecutionContext* asked) : context(asked) {}
+  void quadratic_step() const { throw_if_stopped(context); }
+  void cubic_step() const { throw_if_stopped(context); }
+  void start_refine_phase() const { throw_if_stopped(context); }
+  void start_fair_phase() const { throw_if_stopped(context); }
+};
+
+void fill(SurfaceMesh& surface, Loop& loop, ExecutionContext* context) {
   std::vector<Face> faces;
-  const auto how = CGAL::parameters::do_not_use_cubic_algorithm(loop.hole.edges > kMaxCubic);
+  const auto how =
+      CGAL::parameters::do_not_use_cubic_algorithm(loop.hole.edges > kMaxCubic).visitor(StopVisitor(context));
   if (loop.plane || loop.hole.edges == 3) {
     PMP::triangulate_hole(surface, loop.edge, std::back_inserter(faces), how);
   } else {
@@ -111,7 +123,8 @@ FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options) {
   FilledHoles filled;
   for (Loop& loop : loops_of(surface)) {
     throw_if_stopped(options.context);
-    if (loop.hole.length <= options.longest && loop.hole.edges <= kMaxEdges) fill(surface, loop);
+    if (loop.hole.length <= options.longest && loop.hole.edges <= kMaxEdges)
+      fill(surface, loop, options.context);
     filled.holes.push_back(loop.hole);
   }
   filled.mesh = mesh_of(surface);

@@ -10,7 +10,7 @@ namespace affskel::core {
 
 struct FillHolesOptions {
   double longest = 0;                   ///< boundary loops up to this length are filled, mesh units
-  ExecutionContext* context = nullptr;  ///< asked between holes whether to stop
+  ExecutionContext* context = nullptr;  ///< asked within holes, too, whether to stop
 };
 
 /// A boundary loop.

@@ -169,6 +169,7 @@ class Mending {
 
 RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   AlphaWrapOptions wrap;
+  wrap.context = options.context;
   wrap.alpha = options.alpha > 0 ? options.alpha : kWrapDetail * diagonal(mesh);
   wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
   if (wrap.alpha < kFinestWrap * diagonal(mesh)) {

@@ -14,6 +14,7 @@
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -142,6 +143,20 @@ TEST(RepairMesh, AWrapHasTheVolumeOfWhatItWraps) {
   const Mesh open = cut(cut(body, body.points[17], 40), body.points[900], 30);
   const RepairedMesh repaired = repair_mesh(open, {.kind = RepairKind::kWrap, .alpha = 20});
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(body), 1, 0.02);
+}
+
+// A hole of many edges, or a wrap, takes seconds by itself.
+TEST(RepairMesh, StopsWithinAHole) {
+  const Mesh open = cut(make_sphere(10, 20'480), {0, 0, 10}, 2);
+  expect_stops_wherever_it_is_asked(
+      50, [&](ExecutionContext* context) { repair_mesh(open, {.context = context}); });
+}
+
+TEST(RepairMesh, StopsWithinAWrap) {
+  const Mesh open = cut(make_body(), {0, 0, 0}, 50);
+  expect_stops_wherever_it_is_asked(1000, [&](ExecutionContext* context) {
+    repair_mesh(open, {.kind = RepairKind::kWrap, .alpha = 60, .context = context});
+  });
 }
 
 TEST(RepairMesh, PointsAreWrapped) {
