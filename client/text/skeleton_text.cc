@@ -66,6 +66,9 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
   if (q.opened() > 0)
     lines.emplace_back("opened",
                        base::counted(q.opened(), "closed surface") + ": a cavity has no line round it");
+  for (const auto& place : q.openings())
+    lines.emplace_back("opened", place_text(place) + ", where E is least, " +
+                                     base::rounded(place.size(), kDigits) + " from the surface");
   for (const auto& place : q.tunnels())
     lines.emplace_back("tunnel", place_text(place) + ", " + base::rounded(place.size(), kDigits) +
                                      " across: not the solid's, the lattice is too coarse there");

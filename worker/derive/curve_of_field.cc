@@ -1,5 +1,8 @@
 #include "derive/curve_of_field.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "base/number_text.h"
 #include "base/ridge_threshold.h"
 #include "core/curve/limb_radii.h"
@@ -40,7 +43,9 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   ridge_.report_lattice(sheet_, message);
   message.set_branches(curve.branches);
   message.set_ends(curve.ends);
-  message.set_opened(curve.opened);
+  message.set_opened(static_cast<std::uint32_t>(curve.opened.size()));
+  for (std::size_t n = 0; n < std::min(kMaxPlaces, curve.opened.size()); ++n)
+    set_place(field_.to_mesh(curve.opened[n].place), curve.opened[n].distance, *message.add_openings());
   if (curve.segments.empty())
     set_advice({"no limb is " + base::to_text(threshold_of(threshold)) +
                     " of its own radii long: the curve is the place of the greatest E alone, without a line.",

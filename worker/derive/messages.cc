@@ -32,6 +32,13 @@ void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message) {
   }
 }
 
+void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message) {
+  message.set_x(place.x);
+  message.set_y(place.y);
+  message.set_z(place.z);
+  message.set_size(size);
+}
+
 v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality) {
   v1::SkeletonQuality message;
   message.set_points(quality.points);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
@@ -21,6 +22,12 @@ void append_point(const FinishedField& field, std::uint32_t point, const core::L
 void append_values(const std::vector<core::PlaceValue>& values, v1::TriangleMesh& message);
 
 void append_corners(const core::Mesh& mesh, v1::TriangleMesh& message);
+
+/// Of one kind no more places are named.
+inline constexpr std::size_t kMaxPlaces = 8;
+
+/// @param place in mesh coordinates.
+void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message);
 
 v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality);
 

@@ -6,18 +6,6 @@
 #include "derive/messages.h"
 
 namespace affskel::worker {
-namespace {
-
-constexpr std::size_t kMaxNamed = 8;
-
-void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message) {
-  message.set_x(place.x);
-  message.set_y(place.y);
-  message.set_z(place.z);
-  message.set_size(size);
-}
-
-}  // namespace
 
 RidgeOfField::RidgeOfField(const FinishedField& field)
     : field_(field),
@@ -39,7 +27,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   lattice.set_cavities(sheet.lattice.cavities);
   message.set_fragments(sheet.fragments);
   message.set_unreached_ends(static_cast<std::uint32_t>(sheet.unreached.size()));
-  for (std::size_t n = 0; n < std::min(kMaxNamed, sheet.unreached.size()); ++n)
+  for (std::size_t n = 0; n < std::min(kMaxPlaces, sheet.unreached.size()); ++n)
     set_place(sheet.unreached[n].place, sheet.unreached[n].distance, *message.add_unreached());
   const auto solid = static_cast<std::uint64_t>(message.solid_genus());
   const std::uint64_t more = sheet.lattice.holes - std::min(sheet.lattice.holes, solid);

@@ -172,10 +172,11 @@ void move_points(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext*
 
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
-  for (const SheetVertex& vertex : curve.vertices) {
-    const Vec3 place = scaled_place(lattice, (1 / lattice.spacing) * vertex.position);
-    curve.distance.push_back(solid.scale() * surface.nearest(place));
-  }
+  const auto distance = [&](const Vec3& position) {
+    return solid.scale() * surface.nearest(scaled_place(lattice, (1 / lattice.spacing) * position));
+  };
+  for (const SheetVertex& vertex : curve.vertices) curve.distance.push_back(distance(vertex.position));
+  for (Opening& opening : curve.opened) opening.distance = distance(opening.place);
 }
 
 void measure(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
@@ -197,7 +198,7 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   const SheetLines lines =
       with_joints(lattice, basis, ridge, sheet_lines(ridge, ends.is_end, options.context));
   CurveSkeleton curve;
-  curve.opened = lines.opened;
+  for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
   curve.segments = lines.segments;
   for (const std::uint32_t v : lines.vertices) {
     curve.vertices.push_back(ridge.vertices[v]);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/vec3.h"
 #include "core/collapse/realms.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
@@ -19,6 +20,12 @@ struct CurveOptions {
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
+/// A closed surface of the ridge, opened: a cavity has no line round it.
+struct Opening {
+  Vec3 place;           ///< where E is least on it, frame coordinates
+  double distance = 0;  ///< to the surface of the solid, mesh units
+};
+
 /// Lines through the limbs of a solid: vertices and segments, no triangle.
 struct CurveSkeleton : SheetMesh {
   std::vector<double> distance;  ///< per vertex: to the surface of the solid, mesh units
@@ -28,7 +35,7 @@ struct CurveSkeleton : SheetMesh {
   std::vector<std::uint32_t> nearest;
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone
-  std::uint32_t opened = 0;    ///< closed surfaces of the ridge, opened: a cavity has no line round it
+  std::vector<Opening> opened;
 };
 
 /// The curve skeleton: the skeleton of `ridge`, collapsed on to the middle of its surfaces (see sheet_lines()),

@@ -250,8 +250,14 @@ class Collapse {
       const auto [known, fresh] = least.try_emplace(together.find(t), here);
       if (here < known->second) known->second = here;
     }
-    for (const auto& [piece, found] : least) remove_triangle(found.second);
-    opened_ += static_cast<std::uint32_t>(least.size());
+    for (const auto& [piece, found] : least) {
+      const Triangle& corners = sheet_.triangles[found.second];
+      opened_.push_back(
+          *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return sheet_.vertices[a].erosion < sheet_.vertices[b].erosion;
+          }));
+      remove_triangle(found.second);
+    }
     return !least.empty();
   }
 
@@ -320,8 +326,7 @@ class Collapse {
   std::vector<std::uint32_t> cofaces_, edges_at_;  // that are left, per edge and per vertex
   std::vector<double> time_;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> front_;
-  std::vector<std::uint32_t> gone_, centres_;
-  std::uint32_t opened_ = 0;
+  std::vector<std::uint32_t> gone_, centres_, opened_;
 };
 
 }  // namespace

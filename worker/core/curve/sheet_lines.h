@@ -13,7 +13,7 @@ namespace affskel::core {
 struct SheetLines {
   std::vector<std::uint32_t> vertices;  ///< of the sheet, ascending
   std::vector<Segment> segments;        ///< by numbers in `vertices`
-  std::uint32_t opened = 0;             ///< closed surfaces, opened
+  std::vector<std::uint32_t> opened;  ///< per closed surface: the vertex of the sheet at which it was opened
 };
 
 /// Collapses a sheet with its curves onto lines: triangles leave from the rims inwards, the nearest to a rim

@@ -38,6 +38,18 @@ TEST(QualityLines, NamePlacesThatTheLatticeIsTooCoarseFor) {
             (Lines{{"tunnel", "at (0, 0, 0), 40 across: not the solid's, the lattice is too coarse there"}}));
 }
 
+TEST(QualityLines, NameThePlacesWhereClosedSurfacesWereOpened) {
+  v1::SkeletonQuality quality;
+  quality.set_points(10);
+  quality.set_opened(1);
+  v1::CoarsePlace& opening = *quality.add_openings();
+  opening.set_z(0.5);
+  opening.set_size(0.25);
+  EXPECT_EQ(with(quality_lines(quality), "opened"),
+            (Lines{{"opened", "1 closed surface: a cavity has no line round it"},
+                   {"opened", "at (0, 0, 0.5), where E is least, 0.25 from the surface"}}));
+}
+
 TEST(QualityLines, SayNothingOfThatWhereTheLatticeIsFineEnough) {
   v1::SkeletonQuality quality;
   quality.set_points(10);

@@ -87,12 +87,15 @@ TEST(CurveSkeleton, OfABallIsAPlace) {
   EXPECT_NEAR(curve.beyond[0], 0.5, 1e-9);
 }
 
-// The closed sheet round a cavity has no line.
-TEST(CurveSkeleton, OfAHollowBallIsOpened) {
+// The closed sheet round a cavity has no line.  The cavity, of radius 1 in 3, lies nearest to the surface at x = 3.
+TEST(CurveSkeleton, OfAHollowBallIsOpenedWhereItIsThinnest) {
   const Curved ball(hollow_ball(), 0.4, "sphere:80");
   ASSERT_EQ(ball.ridge().lattice.cavities, 1U);
   const CurveSkeleton curve = ball.at();
-  EXPECT_EQ(curve.opened, 1U);
+  ASSERT_EQ(curve.opened.size(), 1U);
+  const Vec3 at = ball.solid().place(curve.opened[0].place);
+  EXPECT_LT(norm(at - Vec3{2.25, 0, 0}), 0.8);
+  EXPECT_NEAR(curve.opened[0].distance, std::min(norm(at - Vec3{0.5, 0, 0}) - 1, 3 - norm(at)), 0.05);
   EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
 }
 

@@ -122,5 +122,29 @@ TEST(DeriveCurve, OfATorusIsItsCircle) {
   }
 }
 
+// A box with a cavity 100 under its top.
+TEST(DeriveCurve, NamesThePlaceWhereTheSheetRoundACavityIsOpened) {
+  core::Mesh mesh = core::make_box(1000, 1000, 1000);
+  const core::Mesh cavity = core::make_box(400, 400, 400);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  for (const core::Vec3& p : cavity.points) mesh.points.push_back(p + core::Vec3{300, 300, 400});
+  for (const core::Triangle& t : cavity.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(50);
+  const PreparedJob prepared(core::write_off(mesh), params);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SKELETON);
+  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  const v1::SkeletonQuality quality =
+      parsed<v1::SkeletonPoints>(derive(lease, prepared, finished_field(prepared))).quality();
+  EXPECT_EQ(quality.solid_cavities(), 1U);
+  EXPECT_EQ(quality.cavities(), 0U);
+  EXPECT_EQ(quality.opened(), 1U);
+  ASSERT_EQ(quality.openings_size(), 1);
+  EXPECT_NEAR(quality.openings(0).z(), 900, 60) << "in the middle of the thinnest wall";
+  EXPECT_GT(quality.openings(0).size(), 60);
+  EXPECT_LT(quality.openings(0).size(), 110);
+}
+
 }  // namespace
 }  // namespace affskel::worker
