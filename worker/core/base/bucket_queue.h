@@ -36,6 +36,21 @@ class BucketQueue {
     return false;
   }
 
+  /// Takes all items of the least number there is, in the order in which they came; what is put in with that number
+  /// afterwards is taken by the next call.
+  /// @return false when nothing is left.
+  bool pop_all(std::vector<Item>& items) {
+    items.clear();
+    Item item;
+    if (!pop(item)) return false;
+    items.push_back(std::move(item));
+    std::vector<Item>& bucket = buckets_[current_];
+    for (; next_ < bucket.size(); ++next_) items.push_back(std::move(bucket[next_]));
+    bucket.clear();
+    next_ = 0;
+    return true;
+  }
+
   /// The number of the last item taken.
   std::size_t current() const { return current_; }
 

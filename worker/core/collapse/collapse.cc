@@ -34,6 +34,10 @@ class Order {
     }
     return std::max(0.0, farthest_ - sum / count);
   }
+  double rank(Cell cell, Cell coface) const {
+    return -value_at(complex_, std::span<const float>(way_), cell) -
+           value_at(complex_, std::span<const float>(way_), coface);
+  }
   void removed(Cell, Cell, double) {}
   void bared(Cell, double) {}
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <compare>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "core/base/bucket_queue.h"
@@ -63,7 +64,9 @@ class Collapsing {
   }
 
   /// Collapses as far as it goes, beginning with what is free now.
-  /// @param rules  time(coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time;
+  /// @param rules  time(coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time,
+  ///   those of one time in waves, each what the one before has freed, least rank(cell, coface) first, so that with
+  ///   ranks that know no order of axes a mirror image is collapsed to the mirror image;
   ///   removed(cell, coface, now); bared(cell, now): the last coface of a cell that stays was removed.
   template <class Rules>
   void run(Rules& rules) {
@@ -81,6 +84,12 @@ class Collapsing {
  private:
   static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40;
 
+  struct Pair {
+    double rank = 0;
+    Cell cell = 0, coface = 0;
+    auto operator<=>(const Pair&) const = default;
+  };
+
   void put(Cell cell) {
     state_[cell] |= kThere;
     complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
@@ -94,33 +103,41 @@ class Collapsing {
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
     const Cell coface = coface_of(cell);  // not fixed, else the cell would be
-    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), {cell, coface});
+    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep),
+                {rules.rank(cell, coface), cell, coface});
   }
 
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
-    for (std::pair<Cell, Cell> pair; queue_.pop(pair); stop.did(100)) {
-      const auto [cell, coface] = pair;
-      if (!is_free(cell)) continue;
+    for (std::vector<Pair> wave; queue_.pop_all(wave);) {
       const double now = static_cast<double>(queue_.current()) * kStep;
-      state_[cell] = state_[coface] = 0;
-      rules.removed(cell, coface, now);
-      const auto lost = [&](Cell face) {
-        if (((--state_[face]) & ~kFixed) == kThere) rules.bared(face, now);
-        offer(face, now, rules);
-      };
-      complex_.for_each_face(coface, [&](Cell face) {
-        if (face != cell) lost(face);
-      });
-      complex_.for_each_face(cell, lost);
+      std::sort(wave.begin(), wave.end());
+      for (const Pair& pair : wave) {
+        stop.did(100);
+        if (is_free(pair.cell)) remove(pair, now, rules);
+      }
     }
+  }
+
+  template <class Rules>
+  void remove(const Pair& pair, double now, Rules& rules) {
+    state_[pair.cell] = state_[pair.coface] = 0;
+    rules.removed(pair.cell, pair.coface, now);
+    const auto lost = [&](Cell face) {
+      if (((--state_[face]) & ~kFixed) == kThere) rules.bared(face, now);
+      offer(face, now, rules);
+    };
+    complex_.for_each_face(pair.coface, [&](Cell face) {
+      if (face != pair.cell) lost(face);
+    });
+    complex_.for_each_face(pair.cell, lost);
   }
 
   const DualComplex& complex_;
   ExecutionContext* context_;
   std::vector<std::uint8_t> state_;  // by a cell's name: kThere, kFixed, and how many cofaces it has
-  BucketQueue<std::pair<Cell, Cell>> queue_;
+  BucketQueue<Pair> queue_;
 };
 
 }  // namespace affskel::core

@@ -22,8 +22,9 @@ constexpr double kMinLength = 4;
 
 class Thinning {
  public:
-  Thinning(const DualComplex& complex, std::span<const float> depth, double least_reach)
-      : complex_(complex), depth_(depth), least_reach_(least_reach) {}
+  Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
+           double least_reach)
+      : complex_(complex), depth_(depth), height_(height), least_reach_(least_reach) {}
 
   std::vector<LimbTip> tips() const {
     std::vector<LimbTip> result;
@@ -35,6 +36,10 @@ class Thinning {
   double time(Cell coface, double now) const {
     if (DualComplex::dimension(coface) < 3) return now + 1;
     return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
+  }
+
+  double rank(Cell cell, Cell coface) const {
+    return value_at(complex_, height_, cell) + value_at(complex_, height_, coface);
   }
 
   void bared(Cell cell, double now) {
@@ -119,6 +124,7 @@ class Thinning {
 
   const DualComplex& complex_;
   std::span<const float> depth_;
+  std::span<const double> height_;
   double least_reach_;
   std::vector<Line> lines_;
   std::unordered_map<Cell, double> birth_;           // of lone edges
@@ -127,9 +133,9 @@ class Thinning {
 
 }  // namespace
 
-LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
-                   ExecutionContext* context) {
-  Thinning thinning(complex, depth, least_reach);
+LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
+                   double least_reach, ExecutionContext* context) {
+  Thinning thinning(complex, depth, height, least_reach);
   Collapsing collapsing(complex, context);
   collapsing.run(thinning);
   return {thinning.tips(), collapsing.cells()};

@@ -30,10 +30,12 @@ struct LimbTips {
 /// middle of a foot's blunt front, the line says nothing: the limb begins where that ends.  From there on the line
 /// must have an edge whose way from there, and whose life, are `least_reach` times the time of its birth: the limb
 /// is longer than it is wide.  Its tip lies farther out, as long as the distance to the surface does not grow fast.
-/// A function of complex and depths alone.
-/// @param depth per cube: its distance to the surface, spacings.
+/// A function of complex, depths and heights alone.
+/// @param depth per cube: its distance to the surface, spacings; many are alike.
+/// @param height per cube, >= 0: of those equally deep the lowest go first, as E tells, so that the lattice's order
+///   does not decide.
 /// @throws CoreError kCancelled when the context asks to stop.
-LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, double least_reach,
-                   ExecutionContext* context = nullptr);
+LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
+                   double least_reach, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

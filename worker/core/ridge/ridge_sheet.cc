@@ -130,7 +130,7 @@ RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned
   parallel_for(threads, 3, [&](std::size_t part) {
     if (part == 0) {
       basis.radius = surface_distance(lattice);
-      LimbTips limbs = limb_tips(basis.complex, basis.radius, constants.limb_reach, context);
+      LimbTips limbs = limb_tips(basis.complex, basis.radius, field.erosion, constants.limb_reach, context);
       basis.limbs = std::move(limbs.tips);
       basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
     } else if (part == 1) {

@@ -20,8 +20,10 @@ std::vector<Vec3> tips_of(const Mesh& mesh, double spacing) {
   const LatticeSolid solid(mesh, spacing);
   const DualComplex complex(solid.lattice);
   const SamplePlaces places(solid.solid, solid.lattice);
+  const std::vector<float> depth = surface_distance(solid.lattice);
+  const std::vector<double> height(depth.begin(), depth.end());
   std::vector<Vec3> result;
-  for (const LimbTip& tip : limb_tips(complex, surface_distance(solid.lattice), 1).tips) {
+  for (const LimbTip& tip : limb_tips(complex, depth, height, 1).tips) {
     const std::uint32_t cube = DualComplex::cube_of(tip.vertex);
     const LatticePlace at = lattice_places(solid.lattice, std::vector<std::uint32_t>{cube})[0];
     result.push_back(places.at(at[0], at[1], at[2]));
