@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/base/split_mix64.h"
-#include "core/contour/edge_cells.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -53,26 +52,24 @@ Mesh random_solid(std::uint64_t seed) {
 CellMesh mesh_of_cells(const DualComplex& complex, const CellSet& cells) {
   using Cell = DualComplex::Cell;
   CellMesh result;
+  // A place for every cell, so that two edges with the same ends, at both sides of a thin gap, stay two.
   std::map<Cell, std::uint32_t> number;
   cells.for_each([&](Cell cell) {
     if (DualComplex::dimension(cell) == 3) ++result.cubes;
-    if (DualComplex::dimension(cell) != 0) return;
     number.emplace(cell, static_cast<std::uint32_t>(number.size()));
   });
-  result.mesh.points.resize(number.size());
   cells.for_each([&](Cell cell) {
-    if (DualComplex::dimension(cell) == 2) {
-      const auto ring = vertices_round(complex, cell);
-      const auto corner = [&](std::size_t k) { return number.at(ring[k]); };
-      result.mesh.triangles.push_back({corner(0), corner(1), corner(2)});
-      result.mesh.triangles.push_back({corner(0), corner(2), corner(3)});
-    } else if (DualComplex::dimension(cell) == 1) {
-      Segment ends{};
-      std::size_t n = 0;
-      complex.for_each_face(cell, [&](Cell end) { ends[n++] = number.at(end); });
-      result.segments.push_back(ends);
-    }
+    const std::uint32_t middle = number.at(cell);
+    if (DualComplex::dimension(cell) == 1)
+      complex.for_each_face(cell, [&](Cell end) { result.segments.push_back({middle, number.at(end)}); });
+    if (DualComplex::dimension(cell) != 2) return;
+    complex.for_each_face(cell, [&](Cell edge) {
+      complex.for_each_face(edge, [&](Cell end) {
+        result.mesh.triangles.push_back({middle, number.at(edge), number.at(end)});
+      });
+    });
   });
+  result.mesh.points.resize(number.size());
   return result;
 }
 
