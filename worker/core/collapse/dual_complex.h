@@ -264,8 +264,7 @@ double value_at(const DualComplex& complex, std::span<const Value> values, DualC
     sum += here;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::uint32_t digit = DualComplex::digit(place, axis);
-      const std::uint32_t behind =
-          digit == 1 ? DualComplex::kNone : complex.neighbour(cube, axis, 2 - digit);
+      const std::uint32_t behind = digit == 1 ? DualComplex::kNone : complex.neighbour(cube, axis, 2 - digit);
       if (behind != DualComplex::kNone) sum += 0.5 * (here - static_cast<double>(values[behind]));
     }
   }

@@ -32,8 +32,8 @@ struct LimbTips {
 /// is longer than it is wide.  Its tip lies farther out, as long as the distance to the surface does not grow fast.
 /// A function of complex, depths and heights alone.
 /// @param depth per cube: its distance to the surface, spacings; many are alike.
-/// @param height per cube, >= 0: of those equally deep the lowest go first, as E tells, so that the lattice's order
-///   does not decide.
+/// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,
+///   so that the lattice's order does not decide.
 /// @throws CoreError kCancelled when the context asks to stop.
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
                    double least_reach, ExecutionContext* context = nullptr);
