@@ -27,28 +27,23 @@
 namespace affskel::core {
 namespace {
 
-// Whatever the spacing.
-template <double threshold>
-double constant(double) {
-  return threshold;
-}
-
 constexpr std::array kOperators = {
     ShockOperatorInfo{ShockOperator::kIntermediate, "intermediate", intermediate_difference_threshold,
                       intermediate_difference_divergence},
     ShockOperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
                       central_difference_divergence},
-    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel", constant<base::kZuckerHummelThreshold>,
+    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel",
+                      [](double) { return base::kZuckerHummelThreshold; },
                       [](const Lattice& lattice, const DirectionSet& directions,
                          const OptimalDirections& optimal, ExecutionContext* context) {
                         return zucker_hummel_divergence(lattice, directions, optimal, {}, context);
                       }},
-    ShockOperatorInfo{ShockOperator::kSobel, "sobel", constant<kSobelThreshold>,
+    ShockOperatorInfo{ShockOperator::kSobel, "sobel", [](double) { return kSobelThreshold; },
                       [](const Lattice& lattice, const DirectionSet& directions,
                          const OptimalDirections& optimal, ExecutionContext* context) {
                         return sobel_divergence(lattice, directions, optimal, {}, context);
                       }},
-    ShockOperatorInfo{ShockOperator::kFlux, "flux", constant<kAverageOutwardFluxThreshold>,
+    ShockOperatorInfo{ShockOperator::kFlux, "flux", [](double) { return kAverageOutwardFluxThreshold; },
                       average_outward_flux},
 };
 

@@ -18,6 +18,7 @@
 #include "core/shapes/shapes.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/distance_to_mesh.h"
+#include "core/spatial/point_index.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -268,6 +269,24 @@ TEST(RidgeSheet, OfABodyReachesAllItsEnds) {
   EXPECT_LT(high.x - x.high, 0.035 * height);
   EXPECT_LT(z.low - low.z, 0.03 * height);
   EXPECT_LT(high.z - z.high, 0.08 * height);  // the radius of the head
+}
+
+// What is equally far is collapsed alike on both sides of the plane of symmetry, though the lattice's order runs towards
+// it on one and away from it on the other.
+TEST(RidgeSheet, OfAMirrorSymmetricBodyIsMirrorSymmetric) {
+  for (const std::uint32_t triangles : {292U, 500U, 1000U}) {
+    const Mesh mesh = make_body({.triangles = triangles});
+    const double h = box_of(mesh).longest_side() / 150;
+    const ErodedSolid body(mesh, axes(h), "triangles");
+    const RidgeSheet sheet = ridge_sheet(body.solid, body.lattice, body.field);
+    std::vector<Vec3> places;
+    for (const SheetVertex& v : sheet.vertices) places.push_back(body.place(v.position));
+    const PointIndex index(places);
+    double farthest = 0;
+    for (const Vec3& place : places)
+      farthest = std::max(farthest, index.nearest({-place.x, place.y, place.z}));
+    EXPECT_LT(farthest, h) << triangles;
+  }
 }
 
 // What lies nearer to the surface than 0.3 of the local depth is a corner cut at a bend, or a ridge in a hollow; a
