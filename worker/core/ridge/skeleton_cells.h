@@ -14,8 +14,9 @@ class SkeletonCells {
  public:
   using Cell = DualComplex::Cell;
 
-  /// Of edges with the same ends, as on both sides of a gap thinner than the spacing, one is a segment, and each other
-  /// that no square has becomes two, with a vertex between: a mesh holds one segment from end to end.
+  /// A mesh tells edges by their ends.  On both sides of a gap thinner than the spacing edges of the complex may have
+  /// the same ends, and squares the same opposite corners: of those each but the first gets a vertex in its middle,
+  /// and so do the squares of such edges, so that the mesh has the topology of the complex.
   /// @param left squares, edges and vertices, closed under taking boundaries.
   SkeletonCells(const DualComplex& complex, const CellSet& left);
 
@@ -26,15 +27,23 @@ class SkeletonCells {
   Groups<std::uint32_t> neighbours() const;
   Groups<std::uint32_t> rim_neighbours() const;
 
-  std::vector<Cell> vertices;                          ///< ascending; an edge is the vertex in its middle
-  std::vector<Cell> squares;                           ///< ascending
-  std::vector<std::array<std::uint32_t, 4>> rings;     ///< per square: its vertices, once round
-  std::vector<std::array<std::uint32_t, 2>> segments;  ///< the ends of edges
-  std::vector<std::uint8_t> squares_at;                ///< per segment: how many squares have it
+  std::vector<Cell> vertices;  ///< ascending; edges and squares are those in their middles
+  std::vector<Cell> squares;   ///< ascending
+  std::vector<std::array<std::uint32_t, 4>> rings;  ///< per square: its corners, once round
+  std::vector<char> fanned;                         ///< per square: it has a vertex in its middle
+  std::vector<std::array<std::uint32_t, 3>> fans;   ///< the triangles about these, which come first
+  std::vector<std::array<std::uint32_t, 2>>
+      segments;                          ///< the ends of edges, and from middles of squares outwards
+  std::vector<std::uint8_t> squares_at;  ///< per segment: how many squares have it
 
  private:
   std::array<std::uint32_t, 2> ends(const DualComplex& complex, Cell edge) const;
-  void split_doubled(const DualComplex& complex, const std::vector<Cell>& edges);
+  void find_rings(const DualComplex& complex);
+  std::vector<char> doubled_edges() const;
+  void find_fanned(const DualComplex& complex, const std::vector<Cell>& edges,
+                   const std::vector<char>& split);
+  void split(const DualComplex& complex, const std::vector<Cell>& edges, const std::vector<char>& split);
+  void fan_out(const DualComplex& complex, Cell square);
 };
 
 }  // namespace affskel::core

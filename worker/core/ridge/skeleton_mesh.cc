@@ -93,6 +93,8 @@ class Placing {
     CellSet anchored(complex_);
     for (const Anchor& anchor : from_.anchors.anchors) anchored.insert(anchor.cell);
     std::vector<char> of_surface(cells_.vertices.size(), 0);
+    for (const auto& triangle : cells_.fans)
+      for (const std::uint32_t v : triangle) mesh_.vertices[v].kind = SkeletonKind::kMembrane;
     for (std::size_t s = 0; s < cells_.squares.size(); ++s) {
       const auto& ring = cells_.rings[s];
       const bool ridge =
@@ -190,6 +192,8 @@ class Placing {
     std::vector<char> fixed(cells_.vertices.size(), 0);
     for (const auto& ring : cells_.rings)
       for (const std::uint32_t v : ring) fixed[v] = 1;
+    for (const auto& triangle : cells_.fans)
+      for (const std::uint32_t v : triangle) fixed[v] = 1;
     for (std::uint32_t v = 0; v < fixed.size(); ++v)
       if (neighbours_[v].size() != 2) fixed[v] = 1;
     return fixed;
@@ -320,7 +324,9 @@ class Placing {
   }
 
   void make_faces() {
-    for (const auto& ring : cells_.rings) add_quad(ring, mesh_);
+    mesh_.triangles.assign(cells_.fans.begin(), cells_.fans.end());
+    for (std::size_t s = 0; s < cells_.rings.size(); ++s)
+      if (!cells_.fanned[s]) add_quad(cells_.rings[s], mesh_);
     for (std::size_t s = 0; s < cells_.segments.size(); ++s)
       if (cells_.squares_at[s] == 0) mesh_.segments.push_back({cells_.segments[s][0], cells_.segments[s][1]});
   }
