@@ -102,8 +102,8 @@ constexpr const char* kJobs[] = {
     " AND NOT EXISTS (SELECT 1 FROM artifacts WHERE erosion_id = j.erosion_id"
     " AND (kind, params_key) IN (" OWN_SKELETON ") AND items = j.skeleton_points)",
 
-    "SELECT 'job ' || id, 'is ' || state || ', but still to be cancelled' FROM jobs"
-    " WHERE cancel_requested = 1 AND state NOT IN ('queued', 'running')",
+    ("SELECT 'job ' || id, 'is ' || state || ', but still to be cancelled' FROM jobs"
+     " WHERE cancel_requested = 1 AND state NOT IN ('queued', 'running')"),
 };
 
 // Tasks against jobs and what is done: a job without the task that it waits for would wait for ever.
@@ -167,8 +167,8 @@ constexpr const char* kTasks[] = {
     " (j.state NOT IN ('queued', 'running') OR j.cancel_requested = 1))"
     " OR t.needs_core <> iif(t.kind IN ('erode', 'refine'), ifnull(e.core_version, ''), t.needs_core))",
 
-    "SELECT 'task ' || id, 'has failed alone: it belongs to job ' || job_id || ', which fails with it'"
-    " FROM tasks WHERE state = 'failed' AND on_request = 0",
+    ("SELECT 'task ' || id, 'has failed alone: it belongs to job ' || job_id || ', which fails with it'"
+     " FROM tasks WHERE state = 'failed' AND on_request = 0"),
 };
 
 // The ready tasks by owner, which triggers keep: see migration 8.  A row too few, and the tasks wait for

@@ -24,7 +24,8 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
   const auto cost_at = [&](std::uint32_t cube) { return cost.empty() ? 1.0F : cost[cube]; };
   StopCheck stop(context);
   for (std::pair<float, std::uint32_t> at; front.pop(at); stop.did(100)) {
-    const auto [reached, cube] = at;
+    const float reached = at.first;
+    const std::uint32_t cube = at.second;
     if (reached > way[cube]) continue;
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
       const float there = reached + 0.5F * (cost_at(cube) + cost_at(to)) * kStepLength[steps];
@@ -44,7 +45,8 @@ bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest,
   for (const auto& member : complex.star(from))
     if (way.emplace(member.cube, 0.0F).second) front.push({0.0F, member.cube});
   while (!front.empty()) {
-    const auto [reached, cube] = front.top();
+    const float reached = front.top().first;
+    const std::uint32_t cube = front.top().second;
     front.pop();
     if (wanted[cube]) return true;
     if (reached > way[cube]) continue;

@@ -43,7 +43,7 @@ AxisDirection usual_front(AxisDirection up) {
 
 class Shape {
  public:
-  Shape(const Mesh& mesh, std::vector<Vec3> places) : mesh_(mesh), distance_(mesh) {
+  Shape(const Mesh& mesh, std::vector<Vec3> places) : distance_(mesh) {
     for (const Vec3& place : places) places_.push_back(components(place));
     const Box box = box_of(places);
     low_ = box.low;
@@ -138,7 +138,6 @@ class Shape {
     return count > 0 ? sum / double(count) : middle_[axis];
   }
 
-  const Mesh& mesh_;
   DistanceToMesh distance_;
   std::vector<Axes> places_;
   Axes low_{}, high_{}, middle_{}, unlikeness_{};

@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kAsGlb = "; export it as .glb without compression, or as .ply or .stl";
-constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives; 1 to 3 are lines
+constexpr int kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives; below are points and lines
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // types of components, unsigned
 
 std::string numbered(const char* what, std::size_t i) {
