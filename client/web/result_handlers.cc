@@ -99,8 +99,9 @@ Made make_picture(WebState& web, Session& server, const nlohmann::json& body, co
   options.skeleton = skeleton_member(body);
   options.render.width = kPictureWidth;
   options.render.background = parse_background(background);
+  options.level = number_member(body, "fraction");
   Made made{finished_job(server, job), {}};
-  const auto picture = drawn(web, server, made.job, options, background);
+  const auto picture = drawn(web, server, made.job, options, background + " " + std::to_string(options.level));
   write_whole(path, picture->png);
   made.notices = picture->notices;
   made.facts["shown"] = picture->shown;
@@ -116,7 +117,7 @@ Made make_view(Session& server, const nlohmann::json& body, const std::string& j
     const v1::Job other = finished_job(server, beside);
     subjects.push_back({other, skeleton_params(skeleton, other)});
   }
-  Page page = make_page(server, subjects);
+  Page page = make_page(server, subjects, {{}, number_member(body, "fraction")});
   write_whole(path, page.html);
   made.notices = std::move(page.notices);
   return made;

@@ -3,9 +3,12 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/client_interceptor.h>
+#include <openssl/err.h>
+#include <openssl/pem.h>
 #include <sys/prctl.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -35,10 +38,23 @@ std::string read_access_file(const std::string& path, const char* what) {
   return text;
 }
 
-std::string read_pem(const std::string& path, const char* what) {
+// gRPC would tell of a file without any that there is no address.  What is encrypted is not asked a password for.
+template <class Read, class Free>
+std::string read_pem(const std::string& path, const char* what, Read read, Free free) {
   std::string text = read_access_file(path, what);
-  if (text.find("-----BEGIN ") != std::string::npos) return text;
-  throw std::invalid_argument(path + ": no " + what + " in PEM form");
+  const std::unique_ptr<BIO, decltype(&BIO_free)> bytes(
+      BIO_new_mem_buf(text.data(), static_cast<int>(text.size())), &BIO_free);
+  const auto no_password = [](char*, int, int, void*) { return -1; };
+  auto* const first = read(bytes.get(), nullptr, no_password, nullptr);
+  ERR_clear_error();
+  if (first == nullptr)
+    throw std::invalid_argument(path + ": no " + what + " in PEM form that can be read");
+  free(first);
+  return text;
+}
+
+std::string read_certificates(const std::string& path) {
+  return read_pem(path, "certificate", PEM_read_bio_X509, X509_free);
 }
 
 /// The first line.  Metadata of gRPC are printable ASCII; the message quotes nothing of it.
@@ -111,10 +127,10 @@ std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Address& address,
   }
   if (address.is_unix || files.tls_ca.empty()) return grpc::InsecureChannelCredentials();
   grpc::SslCredentialsOptions options;
-  options.pem_root_certs = read_pem(files.tls_ca, "certificate");
+  options.pem_root_certs = read_certificates(files.tls_ca);
   if (!files.tls_cert.empty()) {
-    options.pem_cert_chain = read_pem(files.tls_cert, "certificate");
-    options.pem_private_key = read_pem(files.tls_key, "key");
+    options.pem_cert_chain = read_certificates(files.tls_cert);
+    options.pem_private_key = read_pem(files.tls_key, "private key", PEM_read_bio_PrivateKey, EVP_PKEY_free);
   }
   return grpc::SslCredentials(options);
 }

@@ -195,8 +195,27 @@ class Desktop(OnThePage):
         page.type("#download-level", 150)
         page.find("#download-threshold").click()
         page.wait(lambda: "above 0 and below 100 %" in page.find("details .error").text)
+        # What is no number is told at once, and is not another one.
+        page.type("#download-threshold", "1e")
+        page.find("#download-level").click()
+        page.wait(lambda: refusal in page.find("details .error").text)
+        page.type("#download-threshold", 3)
         # Picture and turning view are by the same parameters as the files.
-        page.type("#download-level", 10)
+        page.type("#download-level", "12,5")
+        page.find("#download-threshold").click()
+        page.wait(lambda: any("threshold 3" in e.text for e in page.all(".card [role=status]")))
+        with_level = page.find("img.picture").get_attribute("src")
+        page.shown("#interactive").click()
+        page.driver.switch_to.frame(page.shown("dialog iframe"))
+        page.wait(lambda: page.script("return window.affskel && affskel.state().erodedShown?.[0] > 0"))
+        self.assertAlmostEqual(page.script("return affskel.state().level"), 0.125)
+        page.driver.switch_to.default_content()
+        page.screenshot("desktop-16-level")
+        page.shown("#close-interactive").click()
+        page.wait(lambda: not page.all("dialog"))
+        page.find("#download-level").clear()
+        page.find("#download-threshold").click()
+        page.wait(lambda: page.find("img.picture").get_attribute("src") != with_level)
         page.find("#download-threshold").click()
         page.wait(lambda: any("threshold 3" in e.text for e in page.all(".card [role=status]")))
         self.assertFalse(page.find("details .error").is_displayed())
@@ -241,9 +260,13 @@ class Desktop(OnThePage):
         page.wait(lambda: within("affskel.state().skeletonShown") > usual)
         self.assertAlmostEqual(within("affskel.state().looking.azimuth"), 90, 1)
         page.screenshot("desktop-12-threshold")
-        page.type("#view-threshold", -2)
-        page.find("dialog strong").click()
-        page.wait(lambda: "above 0" in page.find("dialog [role=status]").text)
+        for wrong in (-2, "1e"):
+            page.type("#view-threshold", 1)
+            page.find("dialog strong").click()
+            page.wait(lambda: page.find("dialog [role=status]").text == "")
+            page.type("#view-threshold", wrong)
+            page.find("dialog strong").click()
+            page.wait(lambda: "above 0" in page.find("dialog [role=status]").text)
         page.driver.back()
         page.wait(lambda: not page.all("dialog"))
         page.heading("threshold")
@@ -339,6 +362,79 @@ class Desktop(OnThePage):
         page.heading("Jobs")
         page.wait(lambda: "box" in page.text())
 
+    def drop(self, items):
+        """Drops files by name, with a folder where the items have one: FOLDER/NAME."""
+        self.page.script("""
+            const entryOf = (file) => ({ name: file.name, isDirectory: false, file: (done) => done(file) });
+            const dropped = new DataTransfer();
+            const folders = {};
+            for (const [path, text] of arguments[0]) {
+              const [name, folder] = path.split('/').reverse();
+              const file = new File([text], name);
+              if (folder) (folders[folder] ??= []).push(entryOf(file));
+              else dropped.items.add(file);
+            }
+            const items = [...Array(dropped.files.length)].map(() => ({ webkitGetAsEntry: () => ({ isDirectory: false }) }));
+            for (const [name, entries] of Object.entries(folders)) {
+              const parts = [entries, []];
+              items.push({ webkitGetAsEntry: () => ({ name, isDirectory: true,
+                                                      createReader: () => ({ readEntries: (done) => done(parts.shift()) }) }) });
+            }
+            const event = new Event('drop', { bubbles: true, cancelable: true });
+            event.dataTransfer = { items, files: dropped.files };
+            document.querySelector('.drop').dispatchEvent(event);""", items)
+
+    def test_files_and_folders_are_dropped(self):
+        page = self.page
+        with open(bench.path("box.off"), encoding="ascii") as file:
+            text = file.read()
+        page.shown("a.button[href='#new']").click()
+        page.heading("New job")
+        self.drop([("alone.off", text)])
+        page.wait(lambda: page.all("#name") and page.find("#name").get_attribute("value") == "alone")
+        self.drop([("one.off", text), ("scans/two.off", text), ("scans/notes.txt", "no mesh"), ("scans/three.ply", "none")])
+        page.wait(lambda: len(page.all("#several li")) == 3 and "sending" not in page.find("#several").text)
+        texts = [line.text for line in page.all("#several li")]
+        self.assertRegex(texts[0], "^one (is submitted|was there already)$")
+        self.assertIn("three.ply: ", texts[1])
+        self.assertRegex(texts[2], "(is submitted|was there already)$")
+
+    def test_several_jobs_are_cancelled_and_tell_the_time_left(self):
+        page = self.page
+        ids = [bench.run("submit", bench.path("body.off"), "--points", str(3000000 + n), "--name", f"long {n}").strip() for n in range(2)]
+        page.wait(lambda: all(page.all(f"#job-{job}") for job in ids))
+        page.wait(lambda: any("left" in e.text and "per second" in e.text for e in page.all(".job .numbers")))
+        for job in ids:
+            page.find(f"#job-{job} input").click()
+        page.shown("#cancel-selected").click()
+        page.shown("dialog .danger").click()
+        page.wait(lambda: all(page.find(f"#job-{job} .badge").text == "cancelled" for job in ids))
+        for job in ids:
+            bench.run("delete", job)
+
+    def test_a_job_that_is_deleted_meanwhile_is_told(self):
+        page = self.page
+        self.submit_body(2000, "deleted")
+        job = page.driver.current_url.split("/")[-1]
+        bench.run("delete", job)
+        page.wait(lambda: "no job" in page.text() or "not found" in page.text())
+        for left in ("skeleton in", "resume", "Download", "About this job", "Trying again"):
+            self.assertNotIn(left, page.text())
+        page.screenshot("desktop-17-deleted")
+        self.assertEqual([e for e in page.errors() if "404" not in e], [])
+
+    def test_numbers_are_taken_as_they_are_typed(self):
+        page = self.page
+        page.shown("a.button[href='#new']").click()
+        self.choose("box.off")
+        page.wait(lambda: page.all("#spacing"))
+        page.type("#spacing", "5,5")
+        page.wait(lambda: "at spacing 5.5" in page.find("#lattice").text)
+        page.type("#points", "1,000")
+        page.wait(lambda: "1,000 sample points" in page.find("#lattice").text)
+        page.type("#points", "1e")
+        page.wait(lambda: "Give a number above 0." in page.find("#lattice").text)
+
     def test_the_list_is_searched_ordered_and_cleaned(self):
         page = self.page
         names = ["zebra one", "zebra two", "ape"]
@@ -347,6 +443,10 @@ class Desktop(OnThePage):
         cards = [f"#job-{job}" for job in ids]
         shown = lambda: [name for name, card in zip(names, cards) if page.all(card) and page.find(card).is_displayed()]
         page.wait(lambda: shown() == names)
+        page.type("#search", "ridge spacing")
+        page.wait(lambda: shown() == names)
+        page.type("#search", "chords")
+        page.wait(lambda: shown() == [])
         page.type("#search", "ZEBRA")
         page.wait(lambda: shown() == names[:2])
         page.find("#state option[value=running]").click()

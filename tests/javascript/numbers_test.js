@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { coordinate, rounded, roundLength, whole } from '../../client/view/web/numbers.js';
 import { valuesOf } from '../../client/view/web/probe.js';
-import { ago, bytes, count, counted, duration, editable, measure, moment } from '../../client/web/page/numbers.js';
+import { ago, bytes, count, counted, duration, editable, measure, moment, took, typed } from '../../client/web/page/numbers.js';
 
 // Each input with what is expected of it.
 function expectAll(format, pairs) {
@@ -101,4 +101,14 @@ test('values under the pointer: E by its share, what is known of the place', () 
     ['direction, side 1', '(0, 0, 1)'],
     ['direction, side 2', '(0.71, −0.71, 0)'],
   ]);
+});
+
+test('numbers are read as people type them, with a comma or a point', () => {
+  expectAll(typed, [['5.5', 5.5], ['5,5', 5.5], [' 12 ', 12], ['1,234', 1234], ['1,234,567.5', 1234567.5], ['10 000', 10000],
+    ['1e-3', 1e-3], ['-3', -3], ['0,25', 0.25], ['.5', 0.5]]);
+  for (const wrong of ['', '1e', 'x', '1.2.3', '1.234,5', '0x10', 'Infinity', '--1']) assert.ok(Number.isNaN(typed(wrong)), wrong);
+});
+
+test('what took less than ten seconds has two digits', () => {
+  expectAll(took, [[0.3456, '0.35 s'], [2, '2 s'], [9.44, '9.4 s'], [61, '1 min 01 s']]);
 });

@@ -108,6 +108,15 @@ class Access(unittest.TestCase):
         with self.assertRaises(affskel.UnreachableError):
             self.client(tls_ca=other.certificate("other"), token_file=self.token("ada")).jobs()
 
+    def test_a_server_with_tls_is_told_as_such_and_what_is_no_certificate_too(self):
+        self.start()
+        with self.assertRaisesRegex(affskel.UnreachableError, "if it speaks TLS, name who signed its certificate: tls_ca"):
+            self.client(tls_ca=None).jobs()
+        file = self.directory / "damaged.pem"
+        file.write_text("-----BEGIN CERTIFICATE-----\nbm9uZQ==\n-----END CERTIFICATE-----\n")
+        with self.assertRaisesRegex(affskel.UsageError, "no certificate that can be read"):
+            self.client(tls_ca=file).jobs()
+
     def test_certificates_of_clients(self):
         self.authority.sign("ada")
         self.start("--tls-client-ca", self.authority.certificate("ca"))

@@ -256,8 +256,12 @@ class Errors(WithDirectory):
             client.submit((cube, faces[1:]), repair="none")
         with self.assertRaisesRegex(affskel.BadInputError, "1 hole is left"):
             client.submit((cube, faces[1:]))
+        with self.assertRaisesRegex(affskel.BadInputError, r"^1 hole is left[^/]*; fill them by repair='fill=4\.04', or take a new surface .* by repair='wrap'$"):
+            client.submit((cube, faces[1:]))
         with self.assertRaisesRegex(affskel.BadInputError, "is empty"):
             client.submit(b"")
+        with self.assertRaisesRegex(affskel.BadInputError, "vertex 1 is not finite"):
+            client.submit(CUBE.encode().replace(b"1 0 0", b"1 nan 0", 1))
         wrong = "spacing 200 .* measures 1 x 1 x 1 units, a person in metres; a spacing of 0.022 gives 100000"
         with self.assertRaisesRegex(affskel.BadInputError, wrong) as failure:
             client.submit((cube, faces), spacing=200)

@@ -367,7 +367,15 @@ class ForPeople(unittest.TestCase):
                     np.array([sheet.vertices.min(axis=0), sheet.vertices.max(axis=0)]))
         axes.figure.savefig(directory / "sheet.png")
         image, = body.field().plot().images
-        self.assertEqual(np.nanmax(image.get_array()), body.field().E.max())
+        field = body.field()
+        self.assertEqual(np.nanmax(image.get_array()), field.E.max())
+        # The middle of the pixel with the greatest E is the place of that point.
+        shown = image.axes.get_xlabel()[0], image.axes.get_ylabel()[0]
+        left, right, low, high = image.get_extent()
+        rows, columns = image.get_array().shape
+        row, column = np.unravel_index(np.nanargmax(image.get_array()), (rows, columns))
+        place = left + (column + .5) * (right - left) / columns, low + (row + .5) * (high - low) / rows
+        np.testing.assert_allclose(place, [field.points[np.argmax(field.E)]["xyz".index(axis)] for axis in shown])
         self.assertEqual(len(body.skeleton("curve").plot().collections), 1)
 
 
@@ -454,6 +462,14 @@ class SameMesh(unittest.TestCase):
             self.assertGreater(file.stat().st_size, 100)
         file = body.save("divergence", directory / "H.csv", "--operator=sobel")
         self.assertEqual(file.read_text().splitlines()[0].split(",")[-1], "H")
+        self.assertTrue(body.save("picture", directory / "body.png", "--level=5%").read_bytes().startswith(b"\x89PNG"))
+        self.assertIn("<html", body.save("view", directory / "body.html").read_text())
+        with self.assertRaisesRegex(affskel.UsageError, "'lattice' is not written to files: expected one of field, "):
+            body.save("lattice", directory / "lattice.csv")
+        measures = body.measures()
+        body.save("curve", directory / "theirs.vtp")
+        self.assertEqual(measures.curve.save(directory / "ours.vtp").read_bytes(), (directory / "theirs.vtp").read_bytes())
+        self.assertEqual(measures.surface.save(directory / "mesh.off").read_bytes(), body.mesh())
 
     def test_the_same_again_is_the_same_job_and_options_arrive(self):
         again = client.submit(directory / "body.off", spacing=300)

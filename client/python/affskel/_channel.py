@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import ssl
 import threading
 from pathlib import Path
 from typing import Any, List, Optional, Tuple
@@ -30,6 +31,15 @@ def _read_pem(path: str, what: str) -> bytes:
     data = _read(path, what)
     if b"-----BEGIN " not in data:
         raise UsageError(f"no {what} in PEM form", file=path)
+    return data
+
+
+def _read_certificate(path: str) -> bytes:
+    data = _read_pem(path, "certificate")
+    try:
+        ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(cadata=data.decode("ascii", "ignore"))
+    except ssl.SSLError as error:
+        raise UsageError("holds no certificate that can be read", file=path) from error
     return data
 
 
@@ -86,9 +96,9 @@ def _credentials(settings: Settings) -> Any:
                          file=settings.client_cert or settings.client_key)
     if settings.address is None or settings.address.is_unix or not settings.tls_ca:
         return None
-    chain = _read_pem(settings.client_cert, "certificate") if settings.client_cert else None
+    chain = _read_certificate(settings.client_cert) if settings.client_cert else None
     key = _read_pem(settings.client_key, "key") if settings.client_key else None
-    return grpc.ssl_channel_credentials(_read_pem(settings.tls_ca, "certificate"), key, chain)
+    return grpc.ssl_channel_credentials(_read_certificate(settings.tls_ca), key, chain)
 
 
 def open_channel(settings: Settings) -> Any:

@@ -52,6 +52,13 @@ def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], n
     return ordered[first], which
 
 
+def require_finite(mesh: Polygons, file: str = "") -> None:
+    """Raises BadInputError when a vertex has a coordinate that is no finite number."""
+    bad = ~np.isfinite(mesh.points).all(axis=1)
+    if bad.any():
+        raise BadInputError(f"vertex {int(np.argmax(bad))} is not finite", file=file)
+
+
 def require_closed(mesh: Polygons, file: str = "") -> None:
     """Every edge needs two faces, where vertices at one place are one, as they are for the server.
 

@@ -5,12 +5,13 @@ import getpass
 import hashlib
 import numbers
 import os
+import re
 import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional
 
-from ._checks import require_closed, require_points
-from ._errors import BadInputError, LimitError, UsageError
+from ._checks import require_closed, require_finite, require_points
+from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
 from ._messages import plain, value_of_word, word
@@ -24,6 +25,10 @@ from .v1 import types_pb2 as types
 DEFAULT_POINTS = 100000
 MAX_NAME, MAX_OWNER = 200, 100  # bytes, by the contract
 MAX_POINTS = 1 << 31
+
+
+# How affskel-client tells what would mend a mesh with holes.
+_COMMANDS = re.compile(r"; fill them by: .*? --repair (fill=\S+) .* --repair wrap .*")
 
 
 def _short(text: str, most: int) -> str:
@@ -53,6 +58,7 @@ def _needs_program(mesh: Mesh, spacing: Optional[float], repair: str) -> bool:
     """
     if mesh.polygons is None:
         return bool(mesh.file) and find_program() is not None
+    require_finite(mesh.polygons, mesh.file)
     try:
         require_closed(mesh.polygons, mesh.file)
     except BadInputError:
@@ -255,7 +261,14 @@ class Client:
             if not file:
                 file = os.path.join(folder, "mesh.off")
                 Path(file).write_bytes(given.text or b"")
-            document = run_program(self._session.reached(), ["submit", *options, "--", file],
-                                   f"{given.file or 'the mesh'}: formats other than OFF, images and repair are "
-                                   "affskel-client's")
+            try:
+                document = run_program(self._session.reached(), ["submit", *options, "--", file],
+                                       f"{given.file or 'the mesh'}: formats other than OFF, images and repair are "
+                                       "affskel-client's")
+            except AffskelError as error:
+                message = _COMMANDS.sub(r"; fill them by repair='\1', or take a new surface round all of it by repair='wrap'",
+                                        error.message)
+                if given.file:
+                    raise type(error)(message, file=error.file, line=error.line) from None
+                raise type(error)(message.replace(file, "the mesh")) from None  # the caller has no such file
         return Job(self._session, document["id"], bool(document["existed"]), given.file)

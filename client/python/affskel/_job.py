@@ -46,6 +46,11 @@ def _level_options(fraction: Optional[float], volume: Optional[float]) -> List[s
     return ["--volume", repr(volume)] if fraction is None else ["--fraction", repr(fraction)]
 
 
+# What `Job.save` writes: by `fetch`, and by a command of its own.
+_FETCHED = ("field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source")
+_DRAWN = {"picture": "render", "view": "view"}
+
+
 def _argument(value: str) -> str:
     """A setting's value as Python writes it."""
     try:
@@ -260,7 +265,10 @@ class Job:
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_PARTS,
                                                skeleton=skeleton_params("curve", threshold))
         measures = measures_of(types.SolidParts.FromString(self._fetched(request, timeout)))
-        return self._saveable(measures, "measure", self.id, *_skeleton_options(None, threshold))
+        options = _skeleton_options(None, threshold)
+        self._saveable(measures.curve, "fetch", self.id, "curve", *options)
+        self._saveable(measures.surface, "fetch", self.id, "mesh")
+        return self._saveable(measures, "measure", self.id, *options)
 
     def mesh(self, *, timeout: Optional[float] = None) -> bytes:
         """The OFF text that was submitted, unchanged."""
@@ -271,12 +279,13 @@ class Job:
         return self._bytes(service.ARTIFACT_KIND_SOURCE, timeout)
 
     def save(self, what: str, file: Union[str, "os.PathLike[str]"], *options: str) -> Path:
-        """Writes what `affskel-client fetch` does, by the installed affskel-client, and returns where.
+        """Writes what `affskel-client fetch`, or `render` and `view`, do, by the installed affskel-client, and returns where.
 
         Args:
-            what: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh" or "source".
+            what: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source", "picture"
+                (.png) or "view" (.html).
             file: the format is that of its extension; of a curve also .json, .graphml, .swc and .glb.
-            options: more of the command's, such as "--threshold=8".
+            options: more of the command's, such as "--operator=sobel".
 
         Raises:
             UsageError: one of these is wrong, or affskel-client is not there.
@@ -284,8 +293,11 @@ class Job:
         Example:
             >>> job.save("divergence", "H.csv", "--operator=sobel")
         """
+        if what not in (*_FETCHED, *_DRAWN):
+            raise UsageError(f"{what!r} is not written to files: expected one of {', '.join((*_FETCHED, *_DRAWN))}")
         path = Path(file)
-        run_program(self._session.reached(), ["fetch", *options, "-o", str(path.absolute()), "--", self.id, what],
+        command, subject = (_DRAWN[what], [self.id]) if what in _DRAWN else ("fetch", [self.id, what])
+        run_program(self._session.reached(), [command, *options, "-o", str(path.absolute()), "--", *subject],
                     "files are written by affskel-client")
         return path
 

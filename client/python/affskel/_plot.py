@@ -47,14 +47,19 @@ def plot_field(field: "Field", **options: Any) -> Any:
     if importlib.util.find_spec("pyvista") is not None:
         return field.to_pyvista().plot(**{"scalars": "E", **options})
     grid = field.lattice.dense(field.E)
-    lengths = [count * np.linalg.norm(step) for count, step in zip(field.lattice.dims, field.lattice.axes)]
-    across = int(np.argmin(lengths))
-    at = int(np.unravel_index(field.lattice.inside[np.argmax(field.E)], field.lattice.dims)[across])
-    first, second = (axis for axis in range(3) if axis != across)
+    lattice = field.lattice
+    steps = np.linalg.norm(lattice.axes, axis=1)
+    directions = lattice.axes / steps[:, np.newaxis]
+    across = int(np.argmin(lattice.dims * steps))
+    at = int(np.unravel_index(lattice.inside[np.argmax(field.E)], lattice.dims)[across])
+    shown = [axis for axis in range(3) if axis != across]
+    begin = [float(directions[axis] @ lattice.origin - steps[axis] / 2) for axis in shown]
+    end = [float(low + lattice.dims[axis] * steps[axis]) for low, axis in zip(begin, shown)]
     axes = _axes()
     image = axes.imshow(np.take(grid, at, axis=across).T, origin="lower",
-                        **{"extent": (0, lengths[first], 0, lengths[second]), **options})
-    axes.set_xlabel(f"along lattice axis {first}, mesh units")
-    axes.set_ylabel(f"along lattice axis {second}, mesh units")
+                        **{"extent": (begin[0], end[0], begin[1], end[1]), **options})
+    for set_label, axis in zip((axes.set_xlabel, axes.set_ylabel), shown):
+        direction = "xyz"[axis] if lattice.is_axis_parallel else f"along ({', '.join(f'{d:.3g}' for d in directions[axis])})"
+        set_label(f"{direction}, mesh units")
     axes.figure.colorbar(image, ax=axes, label="E, mesh units cubed")
     return axes

@@ -121,6 +121,9 @@ class Session:
         kind = not_yet if code == _Code.FAILED_PRECONDITION else _ERRORS.get(code, InternalError)
         if _is_away(error):
             where = "" if self.embedded else f" (address from {self._settings.origin})"
+            address = self._settings.address
+            if "Socket closed" in detail and address is not None and not address.is_unix and not self._settings.tls_ca:
+                detail = "it closed the connection; if it speaks TLS, name who signed its certificate: tls_ca"
             return kind(f"cannot reach the server at {target}: {detail}{where}")
         if code == _Code.DEADLINE_EXCEEDED:
             return kind(f"the server at {target} did not answer in time")

@@ -1,15 +1,17 @@
 // The files of a finished job, and its pictures.
 import { call, jobPath } from './api.js';
-import { announce, button, h, save } from './elements.js';
-import { bytes } from './numbers.js';
+import { announce, button, h, numberField, save } from './elements.js';
+import { bytes, typed } from './numbers.js';
 import { session } from './session.js';
 import { kArtefacts } from './text.js';
 
+const kUsualLevel = 10; // of eroded solids, % of the volume
+
 // A number of a field, 0 for an empty one; null for one that cannot be.
 function numberIn(field, most) {
-  if (field.value.trim() === '' && !field.validity.badInput) return 0;
-  const value = Number(field.value);
-  return !field.validity.badInput && value > 0 && value < most ? value : null;
+  if (field.value.trim() === '') return 0;
+  const value = typed(field.value);
+  return value > 0 && value < most ? value : null;
 }
 
 /** The card of files, with what they are made by; picture and interactive page are made by the same. */
@@ -28,8 +30,8 @@ export class Downloads {
       h('option', { value: '' }, 'the job’s operator'),
       Object.entries(session.words.operators).map(([word, text]) => h('option', { value: word }, text)),
     );
-    this.threshold = h('input', { id: 'download-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });
-    this.level = h('input', { id: 'download-level', type: 'number', min: 0, max: 100, step: 'any', inputmode: 'decimal', value: 10 });
+    this.threshold = numberField('download-threshold', { placeholder: 'usual' });
+    this.level = numberField('download-level', { placeholder: `${kUsualLevel} in files, none in pictures` });
     this.status = h('p', { class: 'small', role: 'status' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.wrong = h('p', { class: 'error', role: 'alert', hidden: true });
@@ -86,16 +88,18 @@ export class Downloads {
     return { operator: this.operator.value, threshold, fraction: level / 100 };
   }
 
-  // Tells what is wrong beside the fields; else what is shown is made anew.
+  // Tells what is wrong beside the fields, and returns it; else what is shown is made anew.
   check() {
+    let message = '';
     try {
       this.parameters();
-      this.wrong.hidden = true;
-      this.changed();
     } catch (error) {
-      this.wrong.textContent = error.message;
-      this.wrong.hidden = false;
+      message = error.message;
     }
+    this.wrong.textContent = message;
+    this.wrong.hidden = message === '';
+    if (message === '') this.changed();
+    return message;
   }
 
   // What is told of a file stands below its buttons.
@@ -104,7 +108,9 @@ export class Downloads {
     this.problem.hidden = true;
     this.status.textContent = 'The file is being made …';
     try {
-      const result = await call('POST', jobPath(this.job, '/results'), { artefact, format, ...this.parameters() });
+      const { fraction, ...skeleton } = this.parameters();
+      const eroded = { fraction: fraction || kUsualLevel / 100 };
+      const result = await call('POST', jobPath(this.job, '/results'), { artefact, format, ...skeleton, ...eroded });
       save(result);
       const notes = result.warnings.map((warning) => warning.message);
       this.status.textContent = `${result.name}, ${bytes(result.size)}${notes.length ? `. Note: ${notes.join('; ')}` : ''}`;
@@ -118,7 +124,6 @@ export class Downloads {
   // An address of the picture or of the interactive page.
   async made(artefact, more = {}) {
     announce('A moment, it is being made.');
-    const { operator, threshold } = this.parameters();
-    return call('POST', jobPath(this.job, '/results'), { artefact, operator, threshold, ...more });
+    return call('POST', jobPath(this.job, '/results'), { artefact, ...this.parameters(), ...more });
   }
 }

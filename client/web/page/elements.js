@@ -19,6 +19,14 @@ export function h(tag, attributes = {}, ...children) {
 }
 
 /**
+ * A field for a number, as text: a browser's own number fields drop a comma, and tell nothing of what is no number.
+ * @param {string} id
+ * @param {Object<string, any>} [attributes]
+ * @returns {HTMLInputElement}
+ */
+export const numberField = (id, attributes = {}) => h('input', { id, type: 'text', inputmode: 'decimal', autocomplete: 'off', ...attributes });
+
+/**
  * Saves a file that the service has made.
  * @param {{ href: string, name: string }} result
  */

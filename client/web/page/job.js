@@ -2,9 +2,9 @@
 import { call, jobPath } from './api.js';
 import { confirmed, showInteractive } from './dialogs.js';
 import { Downloads } from './downloads.js';
-import { announce, background, button, facts, h, setText, whenThemeChanges } from './elements.js';
+import { announce, background, button, facts, h, numberField, setText, whenThemeChanges } from './elements.js';
 import { showProgress } from './jobs.js';
-import { count, counted, duration, measure, moment } from './numbers.js';
+import { count, counted, measure, moment, took } from './numbers.js';
 import { History } from './history.js';
 import { session } from './session.js';
 import { activity, expiry, isActive, isRemoved, operatorOf, progress, wording } from './text.js';
@@ -41,7 +41,7 @@ function asked(job) {
     ['Priority', String(job.priority || 0)],
     ['Owner', job.owner],
     ['Submitted', moment(job.created_ms)],
-    ...(job.finished_ms > 0 && job.started_ms > 0 ? [['Took', duration((job.finished_ms - job.started_ms) / 1000)]] : []),
+    ...(job.finished_ms > 0 && job.started_ms > 0 ? [['Took', took((job.finished_ms - job.started_ms) / 1000)]] : []),
     ['Job', job.id],
   ];
 }
@@ -66,15 +66,15 @@ function prepared({ prepared: p }) {
  */
 function thresholdControls(job, downloads, show) {
   if (!session.sheets.includes(downloads.operator.value || job.skeleton.operator || session.usual.operator)) return [];
-  const field = h('input', { id: 'view-threshold', type: 'number', min: 0, step: 'any', inputmode: 'decimal', placeholder: 'usual' });
+  const field = numberField('view-threshold', { placeholder: 'usual' });
   const told = h('span', { class: 'small', role: 'status' });
   field.value = downloads.threshold.value;
   field.addEventListener('change', async () => {
     downloads.threshold.value = field.value;
-    told.textContent = 'A moment …';
+    const wrong = downloads.check();
+    told.textContent = wrong || 'A moment …';
+    if (wrong) return;
     try {
-      downloads.parameters();
-      downloads.check();
       await show();
       told.textContent = '';
     } catch (error) {
@@ -105,6 +105,7 @@ export class JobView {
     this.results = h('div', { class: 'results' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.history = new History(id);
+    this.about = h('section', { class: 'card' }, h('h2', {}, 'About this job'), this.facts, this.history.element);
     this.drawn = 0; // how often the picture was asked for
     this.element = h(
       'section',
@@ -113,7 +114,7 @@ export class JobView {
       h('div', { class: 'row head' }, this.heading, this.badge),
       h('div', { class: 'card' }, this.bar, this.numbers, this.what, this.notes, this.actions, this.problem),
       this.results,
-      h('section', { class: 'card' }, h('h2', {}, 'About this job'), this.facts, this.history.element),
+      this.about,
     );
   }
 
@@ -132,8 +133,12 @@ export class JobView {
 
   // It was deleted meanwhile: nothing of it can be had.
   forget() {
+    this.job = undefined;
     this.badge.className = 'badge';
-    for (const part of [this.badge, this.actions, this.results, this.notes, this.facts]) part.replaceChildren();
+    this.bar.hidden = true;
+    const { badge, numbers, what, actions, results, notes } = this;
+    for (const part of [badge, numbers, what, actions, results, notes]) part.replaceChildren();
+    this.about.hidden = true;
   }
 
   show(job) {

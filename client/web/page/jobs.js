@@ -18,11 +18,20 @@ const kOrders = {
  * What tells jobs of one mesh apart.
  * @param {Job} job
  */
-function asked({ params, prepared }) {
+function asked({ params, prepared, skeleton }) {
   const { sampling, directions, frame, minimum } = params;
   const points = prepared?.points || sampling?.target_points;
-  const lattice = points ? counted(points, 'point') : `spacing ${measure(sampling?.spacing || 0)}`;
-  return [lattice, directions && directions !== 'triangles' && directions, frame && frame !== session.usual.frame && frame, minimum && minimum !== session.usual.minimum && minimum].filter(Boolean).join(', ');
+  const spacing = prepared?.spacing || sampling?.spacing;
+  const unusual = (word, usual) => word && word !== usual && word;
+  return [
+    points && counted(points, 'point'),
+    spacing && `spacing ${measure(spacing)}`,
+    unusual(directions, 'triangles'),
+    unusual(frame, session.usual.frame),
+    unusual(minimum, session.usual.minimum),
+    skeleton.operator || session.usual.operator,
+    skeleton.threshold && `threshold ${measure(skeleton.threshold)}`,
+  ].filter(Boolean).join(', ');
 }
 
 // The small pictures are asked for one after the other: the service draws few at once.
@@ -131,7 +140,7 @@ export class JobList {
       h('a', { class: 'button primary', href: '#new' }, 'Choose a mesh'),
     );
     this.more = button('Show older jobs', () => this.showMore(), { hidden: true });
-    this.search = h('input', { type: 'search', id: 'search', 'aria-label': 'Search in names, owners and ids', placeholder: 'Search' });
+    this.search = h('input', { type: 'search', id: 'search', 'aria-label': 'Search in names, owners, ids and parameters', placeholder: 'Search' });
     this.state = h(
       'select',
       { id: 'state', 'aria-label': 'State' },
@@ -232,7 +241,7 @@ export class JobList {
   arrange() {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const seen = ({ job }) => {
-      const text = `${job.name} ${job.owner} ${job.id}`.toLowerCase();
+      const text = `${job.name} ${job.owner} ${job.id} ${asked(job)}`.toLowerCase();
       if (this.owner.value && job.owner !== this.owner.value) return false;
       return (!this.state.value || job.state === this.state.value) && words.every((word) => text.includes(word));
     };

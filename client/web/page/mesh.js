@@ -2,10 +2,10 @@
 import { call, jobPath, upload } from './api.js';
 import { filesIn } from './dropped.js';
 import { showInteractive } from './dialogs.js';
-import { announce, button, byId, facts, h, setText } from './elements.js';
-import { bytes, count, counted, measure } from './numbers.js';
+import { announce, button, byId, facts, h, numberField, setText } from './elements.js';
+import { bytes, count, counted, measure, typed } from './numbers.js';
 import { session } from './session.js';
-import { SubmitForm, field, jobName, kUsualPoints, numberField } from './submit_form.js';
+import { SubmitForm, field, jobName, kUsualPoints } from './submit_form.js';
 
 const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.nrrd', '.mha', '.nii', '.gz', '.zst'];
 const kVoxels = /\.(nrrd|mha|nii)(\.gz|\.zst)?$/i;
@@ -179,9 +179,11 @@ export class NewJob {
 
   // Of an image of voxels.
   askIsovalue(file, asked) {
-    const value = numberField('isovalue', { min: undefined, value: asked.isovalue });
+    const value = numberField('isovalue', { inputmode: 'text', value: asked.isovalue });
     const take = () => {
-      if (value.value) this.take(file, { isovalue: value.value });
+      const isovalue = typed(value.value);
+      if (Number.isNaN(isovalue)) this.complain('The value at the surface must be a number.');
+      else this.take(file, { isovalue: String(isovalue) });
     };
     this.found.replaceChildren(
       h(

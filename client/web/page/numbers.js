@@ -36,6 +36,20 @@ export function measure(value) {
  */
 export const editable = (value) => String(Number(value.toPrecision(6)));
 
+const kNumber = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const kGrouped = /^[+-]?\d{1,3}(,\d{3})+(\.\d*)?$/;
+
+/**
+ * A number as people type it: 1234.5, 1,234.5, 5,5 or 1e-3; NaN for what is none.
+ * @param {string} text
+ * @returns {number}
+ */
+export function typed(text) {
+  const joined = text.replace(/\s/g, '');
+  const plain = kGrouped.test(joined) ? joined.replaceAll(',', '') : joined.replace(/^([^.,]*),([^.,]*)$/, '$1.$2');
+  return kNumber.test(plain) ? Number(plain) : NaN;
+}
+
 /**
  * A size in the largest unit of which it has one.
  * @param {number} size
@@ -65,6 +79,13 @@ export function duration(seconds) {
   if (s < 86400) return `${Math.floor(s / 3600)} h ${two(Math.floor((s % 3600) / 60))} min`;
   return `${Math.floor(s / 86400)} d ${Math.floor((s % 86400) / 3600)} h`;
 }
+
+/**
+ * How long something took, which may be less than a second.
+ * @param {number} seconds
+ * @returns {string}
+ */
+export const took = (seconds) => (seconds < 10 ? `${Number(seconds.toPrecision(2))} s` : duration(seconds));
 
 /**
  * How long since.

@@ -42,7 +42,7 @@ interface Job {
   stage: string;
   priority: number;
   params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null; minimum?: string | null };
-  skeleton: { operator: string | null };
+  skeleton: { operator: string | null; threshold?: number };
   prepared?: { triangles: number; points: number; spacing: number; volume: number; solids: number; notes?: Note[] };
   repair?: { steps: { code: string; message: string }[] }; // of the mesh, before it was submitted
   quality?: { components: number };

@@ -1,7 +1,7 @@
 // What is asked of a mesh: the form of a new job.
 import { call } from './api.js';
-import { announce, h, setText } from './elements.js';
-import { counted, editable, measure } from './numbers.js';
+import { announce, h, numberField, setText } from './elements.js';
+import { counted, editable, measure, typed } from './numbers.js';
 import { session } from './session.js';
 
 const kTyping = 300; // milliseconds after a key until the lattice is counted
@@ -33,14 +33,6 @@ export const field = (id, label, control, help) =>
 const choice = (id, texts) =>
   h('select', { id }, Object.entries(texts).map(([value, text]) => h('option', { value }, text)));
 
-/**
- * @param {string} id
- * @param {Object<string, any>} attributes
- * @returns {any}
- */
-export const numberField = (id, attributes) =>
-  h('input', { id, type: 'number', min: 0, step: 'any', inputmode: 'decimal', ...attributes });
-
 const newRequest = () => crypto.getRandomValues(new Uint32Array(4)).join('-');
 
 /** What is asked of a mesh. */
@@ -51,8 +43,8 @@ export class SubmitForm {
     this.requestId = newRequest();
     this.given = 'points'; // which of the two was typed
     this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: jobName(mesh.name) });
-    this.points = numberField('points', { step: 1, value: kUsualPoints });
-    this.spacing = numberField('spacing', {});
+    this.points = numberField('points', { value: kUsualPoints });
+    this.spacing = numberField('spacing');
     this.lattice = h('p', { id: 'lattice', role: 'status' });
     this.directions = choice('directions', {
       triangles: 'the mesh’s own normals',
@@ -60,7 +52,7 @@ export class SubmitForm {
       'triangles+sphere': 'both of these',
       random: 'at random',
     });
-    this.howMany = numberField('how-many', { min: 1, step: 1, value: 5000 });
+    this.howMany = numberField('how-many', { value: 5000 });
     this.howManyField = field('how-many', 'How many', this.howMany);
     this.howManyField.hidden = true;
     this.minimum = choice('minimum', session.words.minima);
@@ -144,7 +136,7 @@ export class SubmitForm {
   // that the button below does not move when the count comes.
   typed(which) {
     this.given = which;
-    const value = parseFloat(this[which].value);
+    const value = typed(this[which].value);
     clearTimeout(this.timer);
     if (this.counting) this.counting.abort();
     if (!(value > 0)) {
@@ -154,7 +146,7 @@ export class SubmitForm {
     const { volume } = this.mesh.facts;
     if (which === 'points') this.spacing.value = editable(Math.cbrt(volume / value));
     else this.points.value = String(Math.max(0, Math.round(volume / value ** 3)));
-    this.say('about ', parseFloat(this.points.value), parseFloat(this.spacing.value));
+    this.say('about ', typed(this.points.value), typed(this.spacing.value));
     this.timer = setTimeout(() => this.count(which, value), kTyping);
   }
 
@@ -178,7 +170,8 @@ export class SubmitForm {
   }
 
   directionSet() {
-    const many = Math.max(1, Math.round(parseFloat(this.howMany.value) || 0));
+    const many = this.directions.value === 'triangles' ? 1 : typed(this.howMany.value);
+    if (!(many >= 1 && Number.isInteger(many))) throw new Error('The number of directions must be a whole number above 0.');
     const sets = {
       triangles: 'triangles',
       sphere: `sphere:${many}`,
@@ -194,7 +187,7 @@ export class SubmitForm {
     try {
       const answer = await call('POST', '/api/jobs', {
         mesh: this.mesh.mesh,
-        [this.given]: parseFloat(this[this.given].value) || 0,
+        [this.given]: typed(this[this.given].value) || 0,
         directions: this.directionSet(),
         frame: this.frame.value,
         minimum: this.minimum.value,
