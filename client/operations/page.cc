@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "client/artifacts/skeleton_points.h"
 #include "client/artifacts/solid_parts.h"
+#include "client/files/read/input_file.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/kept_stance.h"

@@ -76,8 +76,8 @@ std::vector<std::pair<std::string, std::string>> quality_lines(const v1::Skeleto
     lines.emplace_back("unreached", place_text(place) + ", the skeleton ends " +
                                         base::rounded(place.size(), kDigits) +
                                         " away: thinner than the spacing");
-  if (const auto more = q.unreached_ends() - std::min<std::uint32_t>(q.unreached_ends(), q.unreached_size());
-      more > 0)
+  const auto told = static_cast<std::uint32_t>(q.unreached_size());
+  if (const auto more = q.unreached_ends() - std::min<std::uint32_t>(q.unreached_ends(), told); more > 0)
     lines.emplace_back("unreached", std::to_string(more) + " more ends, nearer to the skeleton");
   if (q.has_hausdorff_there() && q.has_hausdorff_back()) {
     lines.emplace_back("hausdorff", base::rounded(q.hausdorff_there(), kDigits) +

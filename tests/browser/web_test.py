@@ -417,7 +417,7 @@ class Desktop(OnThePage):
         self.submit_body(2000, "deleted")
         job = page.driver.current_url.split("/")[-1]
         bench.run("delete", job)
-        page.wait(lambda: "no job" in page.text() or "not found" in page.text())
+        page.wait(lambda: "It was deleted meanwhile" in page.text())
         for left in ("skeleton in", "resume", "Download", "About this job", "Trying again"):
             self.assertNotIn(left, page.text())
         page.screenshot("desktop-17-deleted")

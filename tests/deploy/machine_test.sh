@@ -30,6 +30,8 @@ try : || { echo "a good machine is refused" >&2; exit 1; }
 refused 'df() { printf "x\nfs 1 1 300 1%% /\n"; }' "has 300 MB free, the build takes 500"
 refused 'awk() { case $1 in *MemTotal*) echo 900 ;; *) command awk "$@" ;; esac; }' "900 MB of memory"
 refused 'dpkg-query() { return 1; }; command() { [ "$2" != sudo ] && builtin command "$@"; }' "installing packages needs root"
+# No name is needed to build and compute.
+try 'getent() { return 2; }' || { echo "a machine without localhost in /etc/hosts is refused" >&2; exit 1; }
 # A program that was installed from elsewhere is enough where the list says so.
 for program in kubectl ''; do
   said=$(bash -c "set -euo pipefail; source '$deploy/common.sh'; dpkg-query() { return 1; }

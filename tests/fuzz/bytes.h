@@ -18,6 +18,11 @@ class Bytes {
 
   /// @param bound 1 .. 256. @return 0 .. bound - 1.
   unsigned below(unsigned bound) { return byte() % bound; }
+  /// Two bytes' worth, for more than 256 choices.
+  std::size_t below_many(std::size_t bound) {
+    const std::size_t high = byte();
+    return (high << 8 | byte()) % bound;
+  }
 
   /// As many as are there, `count` at most.
   std::string_view take(std::size_t count) {

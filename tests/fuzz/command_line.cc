@@ -37,7 +37,7 @@ std::vector<std::string> arguments(Bytes& bytes) {
   while (!bytes.empty() && words.size() < kMostWords) {
     const unsigned which = bytes.below(4);
     std::string word;
-    if (which > 0) word = known_words()[(bytes.byte() << 8 | bytes.byte()) % known_words().size()];
+    if (which > 0) word = known_words()[bytes.below_many(known_words().size())];
     if (which == 3) word += '=';
     if (which == 0 || which == 3) word += bytes.take(bytes.below(32));
     words.push_back(word.substr(0, word.find('\0')));

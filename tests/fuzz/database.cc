@@ -54,7 +54,7 @@ const Pristine& pristine() {
 // What the schema forbids stays as it was.
 void edit(sqlite3* db, Bytes& bytes) {
   const auto& columns = pristine().columns;
-  const auto& [table, column] = columns[(bytes.byte() << 8 | bytes.byte()) % columns.size()];
+  const auto& [table, column] = columns[bytes.below_many(columns.size())];
   const std::string sql = "UPDATE \"" + table + "\" SET \"" + column + "\" = ?";
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(db, sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) return;

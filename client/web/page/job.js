@@ -133,12 +133,11 @@ export class JobView {
 
   // It was deleted meanwhile: nothing of it can be had.
   forget() {
+    const told = this.job ? 'It was deleted meanwhile, and nothing of it is left.' : 'There is no such job, or it is somebody else’s.';
     this.job = undefined;
-    this.badge.className = 'badge';
-    this.bar.hidden = true;
-    const { badge, numbers, what, actions, results, notes } = this;
-    for (const part of [badge, numbers, what, actions, results, notes]) part.replaceChildren();
-    this.about.hidden = true;
+    for (const part of [this.badge, this.bar, this.about]) part.hidden = true;
+    for (const part of [this.numbers, this.actions, this.results, this.notes]) part.replaceChildren();
+    setText(this.what, told);
   }
 
   show(job) {

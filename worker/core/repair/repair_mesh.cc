@@ -101,8 +101,10 @@ class Mending {
       // What is short enough could not be filled: no greater length helps.
       const bool too_long = longest_left->length > longest_;
       result_.longest_left = too_long ? longest_left->length : 0;
-      result_.left = base::counted(left, "hole") + (left == 1 ? " is" : " are") + " left, the longest " +
-                     short_text(longest_left->length) + " round near " + place_text(longest_left->centre);
+      const std::string of_all = count > 0 ? " of " + std::to_string(count + left) : "";
+      result_.left = base::counted(left, "hole") + of_all + (left == 1 ? " is" : " are") +
+                     " left, the longest " + short_text(longest_left->length) + " round near " +
+                     place_text(longest_left->centre);
       if (!too_long)
         result_.left += ", of " + base::counted(longest_left->edges, "edge") + ", more than can be filled";
     }

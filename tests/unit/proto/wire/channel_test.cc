@@ -57,6 +57,12 @@ TEST_F(ChannelTest, FilesThatAreNoGoodAreNamed) {
   EXPECT_NE(error_of("lab:1", alone).find("go together"), std::string::npos);
 }
 
+TEST_F(ChannelTest, ACertificateInPemFormThatIsNoneIsNamed) {
+  AccessFiles files;
+  files.tls_ca = write("ca", "-----BEGIN CERTIFICATE-----\nbm9uZQ==\n-----END CERTIFICATE-----\n");
+  EXPECT_EQ(error_of("lab:1", files), files.tls_ca + ": no certificate in PEM form that can be read");
+}
+
 TEST_F(ChannelTest, ATokenDoesNotLeaveTheMachineInTheClear) {
   AccessFiles files;
   files.token_file = write("token", "affskel_x\n");

@@ -170,7 +170,10 @@ ShapeFile parse_3mf(std::string_view bytes) {
       zip_open_from_source(source, ZIP_RDONLY, &error), zip_discard);
   if (archive == nullptr) {
     zip_source_free(source);
-    fail_at(0, std::string("is an archive that cannot be opened: ") + zip_error_strerror(&error));
+    fail_at(
+        0,
+        "begins as an archive (.zip, which .3mf is), and has no directory at its end: it was cut off or changed on "
+        "its way; copy or export it again");
   }
   const std::uint64_t max_bytes = max_unpacked(bytes.size());
   Relationships told;
