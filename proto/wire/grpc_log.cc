@@ -1,5 +1,6 @@
 #include "wire/grpc_log.h"
 
+#include <google/protobuf/stubs/logging.h>
 #include <grpc/support/log.h>
 
 #include <atomic>
@@ -23,6 +24,7 @@ void pass_on(gpr_log_func_args* entry) {
 GrpcLog::GrpcLog(Sink sink) {
   current = sink;
   gpr_set_log_function(pass_on);
+  google::protobuf::SetLogHandler(nullptr);
 }
 
 GrpcLog::~GrpcLog() {

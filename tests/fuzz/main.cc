@@ -1,5 +1,7 @@
 // Runs targets without libFuzzer: seeds, and what a few random changes make of them.  The same seed gives the same
 // inputs on every machine; finds what lies near, in seconds, among all tests.
+#include <google/protobuf/stubs/logging.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
@@ -111,6 +113,7 @@ void write_corpus(const Target& target, const fs::path& folder) {
 
 int main(int argc, char** argv) {
   using namespace affskel::fuzz;
+  google::protobuf::SetLogHandler(nullptr);  // of every string that is no UTF-8
   CLI::App app("Gives targets changed inputs");
   std::string name, corpus;
   std::vector<std::string> files;
