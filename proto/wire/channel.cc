@@ -47,8 +47,7 @@ std::string read_pem(const std::string& path, const char* what, Read read, Free 
   const auto no_password = [](char*, int, int, void*) { return -1; };
   auto* const first = read(bytes.get(), nullptr, no_password, nullptr);
   ERR_clear_error();
-  if (first == nullptr)
-    throw std::invalid_argument(path + ": no " + what + " in PEM form that can be read");
+  if (first == nullptr) throw std::invalid_argument(path + ": no " + what + " in PEM form that can be read");
   free(first);
   return text;
 }
