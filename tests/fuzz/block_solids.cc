@@ -20,6 +20,7 @@ namespace {
 constexpr std::array<double, 8> kSides = {1, 1, 0.5, 2, 1e-2, 1e-4, 1e-6, 30};
 constexpr unsigned kMostCells = 4;  // along an axis
 constexpr std::uint64_t kPoints = 60;
+constexpr std::uint64_t kMostLines = 200'000;  // plates far apart would need millions for so many points
 constexpr double kRelative = 1e-9, kOfVolume = 1e-10;
 // Heights are rounded to 2^-44 of the size: a section moves by that.
 constexpr double kHeight = 0x1p-42;
@@ -72,6 +73,7 @@ bool is_on_plane(const BlockSolid& solid, const core::Vec3& x) {
 void check_field(const BlockSolid& blocks, const core::Solid& solid) {
   core::LatticeOptions sampling;
   sampling.target_points = kPoints;
+  sampling.max_lines = kMostLines;
   const core::Lattice lattice = core::make_lattice(solid, sampling);
   const core::DirectionSet directions = core::make_directions(solid, "triangles");
   core::Erosion erosion(solid, lattice, directions, {1, false, true});

@@ -1,8 +1,13 @@
 // Runs targets without libFuzzer: seeds, and what a few random changes make of them.  The same seed gives the same
 // inputs on every machine; finds what lies near, in seconds, among all tests.
+#include <fcntl.h>
 #include <google/protobuf/stubs/logging.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -16,6 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestInput = 4096;
+constexpr std::time_t kSeconds = 5;            // of the processor, for one input
+constexpr rlim_t kMemory = rlim_t{512} << 20;  // of the heap
+constexpr const char* kFinding = "finding";    // the file of the input that did harm
 
 class Mutator {
  public:
@@ -56,8 +64,33 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
+std::string_view under_way;  // the input
+
+// Of an input that takes too long: only what a signal handler may.
+extern "C" void keep_and_end(int) {
+  const int file = open(kFinding, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (file >= 0 && write(file, under_way.data(), under_way.size()) >= 0) close(file);
+  constexpr std::string_view kTold = "an input takes more than five seconds; it is in the file finding\n";
+  [[maybe_unused]] const auto told = write(STDERR_FILENO, kTold.data(), kTold.size());
+  _exit(3);
+}
+
+// What libFuzzer bounds, too.
+void set_limits() {
+  const rlimit memory{kMemory, kMemory};
+  setrlimit(RLIMIT_DATA, &memory);
+  std::signal(SIGPROF, keep_and_end);
+}
+
+void begin_time() {
+  const itimerval once{{0, 0}, {kSeconds, 0}};
+  setitimer(ITIMER_PROF, &once, nullptr);
+}
+
 // Whether the input does no harm; what does is told, and kept.
 bool passes(const Target& target, const std::string& input, const std::string& name) {
+  under_way = input;
+  begin_time();
   try {
     target.run(input);
     return true;
@@ -67,7 +100,7 @@ bool passes(const Target& target, const std::string& input, const std::string& n
   return false;
 }
 
-void write(const fs::path& file, const std::string& bytes) {
+void write_file(const fs::path& file, const std::string& bytes) {
   std::ofstream out(file, std::ios::binary);
   if (!(out << bytes).flush()) throw std::runtime_error("cannot write " + file.string());
 }
@@ -88,8 +121,8 @@ int run_short(const Target& target, std::size_t runs, std::uint64_t seed) {
   for (std::size_t n = 0; n < runs; ++n) {
     const std::string input = mutator.next(all);
     if (passes(target, input, "input " + std::to_string(n))) continue;
-    write("finding", input);
-    std::cerr << "the input is in the file finding\n";
+    write_file(kFinding, input);
+    std::cerr << "the input is in the file " << kFinding << '\n';
     return 1;
   }
   std::cout << target.name << ": " << all.size() << " seeds and " << runs << " changed inputs\n";
@@ -105,7 +138,8 @@ int run_files(const Target& target, const std::vector<std::string>& files) {
 void write_corpus(const Target& target, const fs::path& folder) {
   fs::create_directories(folder);
   std::size_t number = 0;
-  for (const std::string& input : target.seeds()) write(folder / ("seed" + std::to_string(number++)), input);
+  for (const std::string& input : target.seeds())
+    write_file(folder / ("seed" + std::to_string(number++)), input);
 }
 
 }  // namespace
@@ -128,6 +162,7 @@ int main(int argc, char** argv) {
   try {
     const Target& target = target_named(name);
     if (!corpus.empty()) return write_corpus(target, corpus), 0;
+    set_limits();
     if (!files.empty()) return run_files(target, files);
     return run_short(target, runs > 0 ? runs : target.short_runs, seed);
   } catch (const std::exception& error) {
