@@ -456,6 +456,16 @@ class SameMesh(unittest.TestCase):
         with self.assertRaises(affskel.NotFoundError):
             body.source()
 
+    def test_shares_are_taken_as_the_command_line_takes_them(self):
+        said = directory.client("submit", directory / "body.off", "--spacing", "3%", "--wait").strip()
+        self.assertEqual(client.submit(directory / "body.off", spacing="3%").id, said)
+        directory.client("transform", directory / "body.off", "--scale", 1, "-o", directory / "share.ply")
+        self.assertTrue(client.submit(directory / "share.ply", spacing="3%").existed)
+        self.assertEqual(len(body.eroded("5%")), len(body.eroded(.05)))
+        for wrong in ("10mm", "x%", "-1%"):
+            with self.assertRaisesRegex(affskel.UsageError, "spacing is a number, in units of the mesh, or a share"):
+                client.submit(directory / "body.off", spacing=wrong)
+
     def test_lines_are_saved_as_graphs_and_everything_as_fetch_does(self):
         for extension in ("json", "graphml", "swc", "glb"):
             file = body.skeleton("curve").save(directory / f"limbs.{extension}")

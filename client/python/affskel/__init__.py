@@ -17,7 +17,7 @@ from __future__ import annotations
 import os
 import threading
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, Callable, Dict, List, Optional, TypeVar
+from typing import Any, Callable, Dict, List, Optional, TypeVar, Union
 
 from ._arrays import Field, Lattice, Points, Surface
 from ._client import Client
@@ -78,7 +78,7 @@ def __dir__() -> List[str]:
 
 
 @_as_in_client(Client.submit)
-def submit(mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
+def submit(mesh: MeshLike, *, spacing: Union[float, str, None] = None, points: Optional[int] = None,
            directions: str = "triangles", minimum: str = "set", frame: str = "axis",
            operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
            repair: str = "auto", isovalue: Optional[float] = None) -> Job:

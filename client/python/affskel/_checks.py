@@ -52,6 +52,23 @@ def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], n
     return ordered[first], which
 
 
+def share_of(text: object) -> Optional[float]:
+    """"5%" as 0.05; None for what is no share."""
+    if not isinstance(text, str) or not text.endswith("%"):
+        return None
+    try:
+        share = float(text[:-1]) / 100
+    except ValueError:
+        return None
+    return share if 0 < share < float("inf") else None
+
+
+def longest_side(mesh: Polygons) -> float:
+    """Of the box about the vertices that faces use."""
+    used = np.unique(np.concatenate([group.ravel() for group in mesh.faces]))
+    return float(np.ptp(mesh.points[used], axis=0).max())
+
+
 def require_finite(mesh: Polygons, file: str = "") -> None:
     """Raises BadInputError when a vertex has a coordinate that is no finite number."""
     bad = ~np.isfinite(mesh.points).all(axis=1)

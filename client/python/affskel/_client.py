@@ -8,9 +8,9 @@ import os
 import re
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List, Optional, Union
 
-from ._checks import require_closed, require_finite, require_points
+from ._checks import longest_side, require_closed, require_finite, require_points, share_of
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -45,11 +45,11 @@ def _user_name() -> str:
 
 def _number(value: object, what: str) -> float:
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise UsageError(f"{what} is a number" + (", in units of the mesh" if what == "spacing" else "") + f", not {value!r}")
+        raise UsageError(f"{what} is a number" + (", in units of the mesh, or a share of its length such as '1%'" if what == "spacing" else "") + f", not {value!r}")
     return float(value)
 
 
-def _needs_program(mesh: Mesh, spacing: Optional[float], repair: str) -> bool:
+def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) -> bool:
     """Whether affskel-client, which is there, must look at the mesh: it is a file of a kind that is not read here, or has
     holes, which may be filled.
 
@@ -107,7 +107,7 @@ class Client:
         """Ends the connection, and the calls under way; the next call opens another."""
         self._session.close()
 
-    def submit(self, mesh: MeshLike, *, spacing: Optional[float] = None, points: Optional[int] = None,
+    def submit(self, mesh: MeshLike, *, spacing: Union[float, str, None] = None, points: Optional[int] = None,
                directions: str = "triangles", minimum: str = "set", frame: str = "axis",
                operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
                repair: str = "auto", isovalue: Optional[float] = None) -> Job:
@@ -119,7 +119,7 @@ class Client:
         Args:
             mesh: a path (OFF; other formats are read by the installed affskel-client), OFF text as bytes, a pair of
                 vertices (n, 3) and faces (m, 3) or sequences of indices, or a mesh of trimesh, pyvista or VTK.
-            spacing: of the lattice, mesh units.
+            spacing: of the lattice, mesh units, or a share of the mesh's longest side: "1%".
             points: number of sample points to aim at, instead of a spacing; default 100000.
             directions: "triangles", "sphere:N", "random:N:SEED", joined by "+".
             minimum: "set": E is the least volume over the directions; "infimum": over all, beginning from these.
@@ -147,8 +147,12 @@ class Client:
         given = mesh_of(mesh)
         if given.text == b"":
             raise BadInputError(f"{given.file or 'the mesh'} is empty")
-        header = self._header(given, spacing, points, directions, minimum, frame, repair)
-        by_program = given.text is None or isovalue is not None or repair not in ("auto", "none")
+        share = share_of(spacing)
+        if share is not None and given.polygons is not None:
+            spacing = share * longest_side(given.polygons)
+            share = None
+        header = self._header(share or spacing, points, directions, minimum, frame, repair)
+        by_program = given.text is None or share is not None or isovalue is not None or repair not in ("auto", "none")
         if not by_program:
             by_program = _needs_program(given, spacing, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
@@ -158,7 +162,7 @@ class Client:
         header.priority = priority
         header.request_id = request_id
         if by_program or given.text is None:
-            return self._submit_file(given, header, operator, repair, isovalue)
+            return self._submit_file(given, header, operator, repair, isovalue, share)
         self._complete(header, given.text)
         response = self._session.submit(header, given.text)
         return Job(self._session, response.job.id, response.existed, given.file, status_of(response.job))
@@ -210,13 +214,14 @@ class Client:
         return plain(self._session.server_info())
 
     @staticmethod
-    def _header(given: Mesh, spacing: Optional[float], points: Optional[int], directions: str, minimum: str,
+    def _header(spacing: Union[float, str, None], points: Optional[int], directions: str, minimum: str,
                 frame: str, repair: str) -> service.SubmitJobHeader:
         header = service.SubmitJobHeader()
         if spacing is not None:
-            if not 0 < _number(spacing, "spacing") < float("inf"):
+            step = _number(spacing, "spacing")
+            if not 0 < step < float("inf"):
                 raise UsageError(f"the spacing {spacing} is not above 0")
-            header.params.sampling.spacing = spacing
+            header.params.sampling.spacing = step
         else:
             wanted = DEFAULT_POINTS if points is None else points
             if not 1 <= _number(wanted, "points") <= MAX_POINTS or int(wanted) != wanted:
@@ -239,10 +244,11 @@ class Client:
         header.mesh_bytes = len(text)
 
     def _submit_file(self, given: Mesh, header: service.SubmitJobHeader, operator: str, repair: str,
-                     isovalue: Optional[float]) -> Job:
+                     isovalue: Optional[float], share: Optional[float]) -> Job:
         """By affskel-client, which reads the file, checks and repairs it, and submits it as OFF text."""
         params, sampling = header.params, header.params.sampling
-        density = ["--spacing", repr(sampling.spacing)] if sampling.HasField("spacing") else [
+        spacing = repr(sampling.spacing) if share is None else f"{100 * share!r}%"
+        density = ["--spacing", spacing] if sampling.HasField("spacing") else [
             "--points", str(sampling.target_points)]
         options = [*density, "--directions", params.directions or "triangles",
                    "--minimum", word(types.Minimum, params.minimum), "--frame", word(types.Frame, params.frame),

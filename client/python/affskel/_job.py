@@ -11,6 +11,7 @@ import numpy as np
 
 from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of, refined_of,
                       surface_of)
+from ._checks import share_of
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
 from ._measures import Measures, measures_of
 from ._messages import plain, value_of_word
@@ -42,7 +43,12 @@ def _skeleton_options(operator: Optional[str], threshold: Optional[float]) -> Li
     return options if threshold is None else [*options, "--threshold", repr(float(threshold))]
 
 
-def _level_options(fraction: Optional[float], volume: Optional[float]) -> List[str]:
+def _fraction(value: Union[float, str, None]) -> Union[float, str, None]:
+    share = share_of(value)
+    return value if share is None else share
+
+
+def _level_options(fraction: Union[float, str, None], volume: Optional[float]) -> List[str]:
     return ["--volume", repr(volume)] if fraction is None else ["--fraction", repr(fraction)]
 
 
@@ -232,22 +238,24 @@ class Job:
             request.skeleton.CopyFrom(chosen)
         return np.frombuffer(self._fetched(request, timeout), "<f8").astype(np.float64)
 
-    def eroded(self, fraction: Optional[float] = None, volume: Optional[float] = None, *,
+    def eroded(self, fraction: Union[float, str, None] = None, volume: Optional[float] = None, *,
                timeout: Optional[float] = None) -> Surface:
         """The closed surface of the eroded solid, the places where E is at least a level.
 
         Args:
-            fraction: the level as a share of v0, between 0 and 1.
+            fraction: the level as a share of v0, between 0 and 1, or "5%".
             volume: the level itself, mesh units cubed.  One of the two is needed.
         """
+        fraction = _fraction(fraction)
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, fraction, volume)
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.corners), message.quality)
         return self._saveable(surface_of(message), "erode", self.id, "--as", "surface", *_level_options(fraction, volume))
 
-    def eroded_points(self, fraction: Optional[float] = None, volume: Optional[float] = None, *,
+    def eroded_points(self, fraction: Union[float, str, None] = None, volume: Optional[float] = None, *,
                       timeout: Optional[float] = None) -> Points:
         """The sample points in the eroded solid; arguments as for `eroded`."""
+        fraction = _fraction(fraction)
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_POINTS, fraction, volume)
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.point), message.quality)
