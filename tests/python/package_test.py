@@ -131,11 +131,11 @@ class Types(unittest.TestCase):
     def test_those_who_use_it_see_its_types(self):
         user = directory / "user.py"
         user.write_text("import affskel\nreveal_type(affskel.submit('x.off').wait().field().E)\n"
-                        "affskel.submit('x.off', spacing='wide')\n")
+                        "affskel.submit('x.off', points='many')\n")
         with self.assertRaises(AssertionError) as failure:
             self.mypy("--python-executable", PYTHON, "--ignore-missing-imports", user)
         self.assertIn("ndarray[Any, numpy.dtype[numpy.floating[numpy._typing._64Bit]]]", str(failure.exception))
-        self.assertIn('Argument "spacing" to "submit" has incompatible type "str"', str(failure.exception))
+        self.assertIn('Argument "points" to "submit" has incompatible type "str"', str(failure.exception))
         self.assertIn("Found 1 error", str(failure.exception))
 
     def test_its_syntax_is_that_of_python_3_9(self):

@@ -460,7 +460,8 @@ class SameMesh(unittest.TestCase):
         said = directory.client("submit", directory / "body.off", "--spacing", "3%", "--wait").strip()
         self.assertEqual(client.submit(directory / "body.off", spacing="3%").id, said)
         directory.client("transform", directory / "body.off", "--scale", 1, "-o", directory / "share.ply")
-        self.assertTrue(client.submit(directory / "share.ply", spacing="3%").existed)
+        theirs, ours = client.job(said), client.submit(directory / "share.ply", spacing="3%").wait()
+        assert_same(ours.lattice().axes, theirs.lattice().axes)
         self.assertEqual(len(body.eroded("5%")), len(body.eroded(.05)))
         for wrong in ("10mm", "x%", "-1%"):
             with self.assertRaisesRegex(affskel.UsageError, "spacing is a number, in units of the mesh, or a share"):

@@ -43,12 +43,16 @@ def _skeleton_options(operator: Optional[str], threshold: Optional[float]) -> Li
     return options if threshold is None else [*options, "--threshold", repr(float(threshold))]
 
 
-def _fraction(value: Union[float, str, None]) -> Union[float, str, None]:
+def _fraction(value: Union[float, str, None]) -> Optional[float]:
+    if not isinstance(value, str):
+        return value
     share = share_of(value)
-    return value if share is None else share
+    if share is None:
+        raise UsageError(f"fraction is a number, or a share such as '5%', not {value!r}")
+    return share
 
 
-def _level_options(fraction: Union[float, str, None], volume: Optional[float]) -> List[str]:
+def _level_options(fraction: Optional[float], volume: Optional[float]) -> List[str]:
     return ["--volume", repr(volume)] if fraction is None else ["--fraction", repr(fraction)]
 
 
@@ -246,20 +250,20 @@ class Job:
             fraction: the level as a share of v0, between 0 and 1, or "5%".
             volume: the level itself, mesh units cubed.  One of the two is needed.
         """
-        fraction = _fraction(fraction)
-        request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, fraction, volume)
+        level = _fraction(fraction)
+        request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, level, volume)
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.corners), message.quality)
-        return self._saveable(surface_of(message), "erode", self.id, "--as", "surface", *_level_options(fraction, volume))
+        return self._saveable(surface_of(message), "erode", self.id, "--as", "surface", *_level_options(level, volume))
 
     def eroded_points(self, fraction: Union[float, str, None] = None, volume: Optional[float] = None, *,
                       timeout: Optional[float] = None) -> Points:
         """The sample points in the eroded solid; arguments as for `eroded`."""
-        fraction = _fraction(fraction)
-        request = self._eroded_request(service.ARTIFACT_KIND_ERODED_POINTS, fraction, volume)
+        level = _fraction(fraction)
+        request = self._eroded_request(service.ARTIFACT_KIND_ERODED_POINTS, level, volume)
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.point), message.quality)
-        return self._saveable(points_of(message), "erode", self.id, "--as", "points", *_level_options(fraction, volume))
+        return self._saveable(points_of(message), "erode", self.id, "--as", "points", *_level_options(level, volume))
 
     def measures(self, threshold: Optional[float] = None, *, timeout: Optional[float] = None) -> Measures:
         """The solid in its limbs: lengths, volumes, radii, angles, and which part each triangle and sample point is of.
