@@ -23,6 +23,7 @@ void keep_standard_streams() {
 int main(int argc, char** argv) {
   using namespace affskel::client;
   keep_standard_streams();
+  setenv("GRPC_VERBOSITY", "NONE", 0);  // what matters to people is told as errors
   install_interrupt_handlers();
   const ClientIo io{std::cout,
                     std::cerr,

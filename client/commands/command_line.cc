@@ -43,7 +43,7 @@ CommandLine::CommandLine() {
   app_.footer(
       "Examples:\n"
       "  affskel-client make body -o body.off\n"
-      "  affskel-client submit body.off --spacing 200 -o OUT\n"
+      "  affskel-client submit body.off --spacing 1% -o OUT\n"
       "  affskel-client render @last -o body.png\n"
       "  affskel-client view @last -o body.html\n"
       "'affskel-client COMMAND --help' tells more, 'affskel-client man | man -l -' all of it.\n" +

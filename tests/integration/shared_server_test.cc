@@ -1,6 +1,7 @@
 // A server for several people, over TLS and with tokens.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -77,6 +78,16 @@ TEST_F(SharedServerTest, WhoComesInTheClearIsToldOfTls) {
   const Output refused = lab_.run({AFFSKEL_CLIENT_BINARY, "--server", address_, "list"});
   EXPECT_EQ(refused.exit_code, 5);
   EXPECT_NE(refused.err.find("--tls-ca"), std::string::npos) << refused.err;
+}
+
+TEST_F(SharedServerTest, WhoTrustsOthersIsToldInOneLine) {
+  const Process server = start_server();
+  const tests::TestAuthority other(lab_.path(""), "other");
+  const Output refused =
+      lab_.run({AFFSKEL_CLIENT_BINARY, "--quiet", "--server", address_, "--tls-ca", other.file(), "list"});
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_TRUE(refused.err.starts_with("error: cannot reach the server at ")) << refused.err;
+  EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
 }
 
 TEST_F(SharedServerTest, PeopleAndWorkersComeByTlsAndTokens) {

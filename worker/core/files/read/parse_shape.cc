@@ -127,6 +127,7 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
 }
 
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, const MeshFileOptions& options) {
+  if (bytes.empty() && extension != ".off") fail_at(0, "the file is empty");
   if (is_voxel_image(bytes)) return mesh_of_voxels(bytes, options);
   if (options.isovalue)
     throw CoreError(CoreError::Code::kBadInput,

@@ -74,7 +74,9 @@ class DescriptionReader : public XmlHandler {
 
  private:
   void read_head(const XmlElement& element) {
-    if (element.name() != "VTKFile") fail_at(element.line(), "not a VTK XML file");
+    if (element.name() != "VTKFile")
+      fail_at(element.line(), "is XML of the kind " + quoted_excerpt(element.name()) +
+                                  ", not VTK's; export it as .off, .ply, .obj, .stl or .glb");
     if (element.attribute("type") != "PolyData") {
       fail_at(element.line(),
               "a VTK file of type " + quoted_excerpt(element.attribute("type")) + "; only PolyData is read");

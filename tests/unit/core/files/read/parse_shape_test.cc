@@ -95,6 +95,10 @@ TEST(ParseMeshFile, SaysWhatAnotherKindIsAndWhatToDo) {
     EXPECT_NE(refusal(extension, "PK\x03\x04").find("cut off or changed on its way"), std::string::npos);
     EXPECT_NE(refusal(extension, "ISO-10303-21;\nHEADER;").find("STEP"), std::string::npos);
   }
+  for (const char* extension : {".stl", ".ply", ".obj", ".glb", ".3mf", ".vtp", ".nrrd"})
+    EXPECT_NE(refusal(extension, "").find("the file is empty"), std::string::npos) << extension;
+  EXPECT_NE(refusal(".amf", "<?xml version=\"1.0\"?>\n<amf/>").find("is XML of the kind 'amf'"),
+            std::string::npos);
   // The header of a binary STL may say anything.
   EXPECT_EQ(refusal(".stl", binary_stl("glTF")).find("glTF"), std::string::npos);
 }
