@@ -34,7 +34,7 @@ struct ChordSheet : SheetMesh {
 ///
 /// Vertices and shocks lie in the solid, vertices in their cells too; triangles need not.  The sheet ends at
 /// most half a spacing beyond its outermost shocks, branches where three chords are equal (edges with three
-/// and more triangles) and may be one-sided: triangles have no common orientation.  Each part of the solid
+/// and more triangles) and may be one-sided; else triangles agree on their senses.  Each part of the solid
 /// (see SolidParts) has the sheet that it would have alone.  A function of solid, lattice and field alone.
 /// @param lattice of this solid.
 /// @param field of this lattice.

@@ -13,6 +13,7 @@
 #include "core/base/unit.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/patch_senses.h"
 #include "core/solid/solid_membership.h"
 
 namespace affskel::core {
@@ -143,6 +144,7 @@ SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts, const Ed
   }
   sheet.triangles.reserve(2 * crossings.size());
   for (const auto& ring : cells.ring) add_quad(ring, sheet);
+  agree_on_senses(sheet.vertices.size(), sheet.triangles);
   sheet.part = cells.part;
   return sheet;
 }

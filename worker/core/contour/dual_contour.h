@@ -40,7 +40,8 @@ using VertexOfCell =
 /// @param crossings each edge once.
 /// @param vertex_of values of the vertices.
 /// @param context asked at whether to stop.
-/// @return vertices in the order of their cells; two triangles per crossing, in the order of the crossings.
+/// @return vertices in the order of their cells; two triangles per crossing, in the order of the crossings,
+///   which agree on their senses (see agree_on_senses()).
 /// @throws CoreError kCancelled when the context asks to stop.
 SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts, const EdgeCells& cells,
                        std::span<const SheetCrossing> crossings, const VertexOfCell& vertex_of,

@@ -28,7 +28,7 @@ struct SheetVertex {
   SkeletonKind kind = SkeletonKind::kRidge;
 };
 
-/// A sheet of triangles without a common orientation, with rims and branches, and curves.
+/// A sheet of triangles, which may have one side only, with rims and branches, and curves.
 struct SheetMesh {
   std::vector<SheetVertex> vertices;
   std::vector<std::uint32_t> part;  ///< per vertex: of the solid

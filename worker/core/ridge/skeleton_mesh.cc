@@ -11,6 +11,7 @@
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/patch_senses.h"
 #include "core/ridge/ridge_values.h"
 #include "core/ridge/skeleton_cells.h"
 #include "core/solid/solid_membership.h"
@@ -327,6 +328,7 @@ class Placing {
     mesh_.triangles.assign(cells_.fans.begin(), cells_.fans.end());
     for (std::size_t s = 0; s < cells_.rings.size(); ++s)
       if (!cells_.fanned[s]) add_quad(cells_.rings[s], mesh_);
+    agree_on_senses(mesh_.vertices.size(), mesh_.triangles);
     for (std::size_t s = 0; s < cells_.segments.size(); ++s)
       if (cells_.squares_at[s] == 0) mesh_.segments.push_back({cells_.segments[s][0], cells_.segments[s][1]});
   }

@@ -40,7 +40,8 @@ struct SkeletonParts {
 ///    surface: they become smooth, and follow a ridge where there is a weak one.  A line's end goes on straight.
 /// @param left of the complex: squares, edges and vertices, closed under taking boundaries.
 /// @return a vertex for each of the complex, two triangles for each square, a segment for each edge of no
-///   square; of edges with the same ends see SkeletonCells.
+///   square; of edges with the same ends see SkeletonCells.  Triangles agree on their senses, see
+///   agree_on_senses().
 SheetMesh skeleton_mesh(const Solid& solid, const DualComplex& complex, const CellSet& left,
                         const SkeletonParts& from, ExecutionContext* context);
 
