@@ -97,8 +97,9 @@ std::string size_text(const core::Vec3& size, double longest) {
   return text;
 }
 
-// A lattice of a few points has no skeleton: mostly the spacing is meant in another unit than the mesh has.
-void require_some_points(const core::Solid& solid, const InputFile& input, double spacing) {
+}  // namespace
+
+void check_spacing(const core::Solid& solid, double spacing, const std::string& path) {
   const core::Vec3 size = solid.bbox_max - solid.bbox_min;
   const double longest = longest_side(solid);
   if (spacing <= 0.5 * longest && solid.volume >= kLeastPoints * spacing * spacing * spacing) return;
@@ -107,13 +108,11 @@ void require_some_points(const core::Solid& solid, const InputFile& input, doubl
                     "the spacing " + base::to_text(spacing) +
                         " leaves no room for sample points: the mesh measures " + size_text(size, longest) +
                         "; a spacing of " + base::rounded(good, 2) + " gives 100000 points",
-                    input.path);
+                    path);
 }
 
-}  // namespace
-
 void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission) {
-  require_some_points(solid, input, submission.spacing);
+  check_spacing(solid, submission.spacing, input.path);
   try {
     core::LatticeOptions lattice;
     lattice.spacing = submission.spacing;

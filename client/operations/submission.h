@@ -32,6 +32,12 @@ struct Submission {
 /// Of the solid's box parallel to the axes, mesh units.
 double longest_side(const core::Solid& solid);
 
+/// A lattice of a few points has no skeleton: mostly the spacing is meant in another unit than the mesh has.
+/// @param spacing mesh units; 0 = by a number of points, which is never wrong.
+/// @param path that the error names.
+/// @throws ClientError kBadInput with the size of the mesh, the unit that it looks like, and a spacing that would do.
+void check_spacing(const core::Solid& solid, double spacing, const std::string& path);
+
 /// Checks what a worker would refuse of lattice and directions, before anything is sent.
 /// @throws ClientError kBadInput or kLimit.
 void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission);

@@ -197,6 +197,7 @@ http::Response lay_lattice(WebCall& call) {
   core::LatticeOptions options;
   options.spacing = asked.spacing;
   options.target_points = asked.points;
+  check_spacing(mesh->solid, asked.spacing, "");
   const double v0 = mesh->solid.volume;
   const double spacing = asked.spacing > 0 ? asked.spacing : std::cbrt(v0 / double(asked.points));
   const double points = v0 / (spacing * spacing * spacing);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 
 #include "base/utf8.h"
@@ -145,11 +146,12 @@ http::Response answer(WebCall& call, const Route& route) {
 
 // The reader goes by the extension.
 std::string upload_extension(const http::Request& head) {
+  constexpr std::size_t kLongest = 8;
   const std::string extension = lower_extension(head.parameter("name"));
-  for (const FileFormat format : surface_formats()) {
-    if (extension == extension_of(format)) return extension;
-  }
-  return ".off";
+  const bool usual = extension.size() > 1 && extension.size() <= kLongest &&
+                     std::all_of(extension.begin() + 1, extension.end(),
+                                 [](unsigned char c) { return std::isalnum(c) != 0 && c < 0x80; });
+  return usual ? extension : ".off";
 }
 
 }  // namespace

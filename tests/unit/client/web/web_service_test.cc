@@ -199,6 +199,8 @@ TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   const json bad = uploaded("bad.off", tests::read_file(dir_ / "bad.off"));
   EXPECT_EQ(ask("POST", "/api/meshes/view?name=bad.off", tests::read_file(dir_ / "bad.off")).status, 422);
   EXPECT_EQ(bad["line"], 5);
+  EXPECT_NE(uploaded("README.md", "Some words\n")["error"].get<std::string>().find("of no kind that is read"),
+            std::string::npos);
   EXPECT_FALSE(bad.contains("facts"));
   EXPECT_EQ(bad.dump().find(std::filesystem::temp_directory_path().string()), std::string::npos)
       << "no paths of the service: " << bad;
@@ -224,6 +226,9 @@ TEST_F(WebServiceTest, CountsPointsForASpacingAndBack) {
   for (const char* wrong : {"", "?spacing=0", "?spacing=x", "?points=-5", "?points=1e10", "?spacing=1e999"})
     EXPECT_EQ(ask("GET", lattice + wrong).status, 400) << wrong;
   EXPECT_EQ(ask("GET", lattice + "?spacing=100&frame=sideways").status, 400);
+  EXPECT_NE(ask("GET", lattice + "?spacing=3000").body.find("the mesh measures 2000 x"),
+            std::string::npos)
+      << ask("GET", lattice + "?spacing=3000").body;
   EXPECT_EQ(ask("GET", "/api/meshes/unknown/lattice?points=5").status, 404);
   // A plate: few points on many lines, of which one request could take all memory.
   const std::string plate =
