@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "base/number_text.h"
 #include "base/utf8.h"
 #include "client/cli/number_parsers.h"
 #include "client/text/nearest_word.h"
+#include "client/text/shell_quoted.h"
 #include "wire/params.h"
 
 namespace affskel::client {
@@ -106,6 +109,19 @@ CLI::Validator utf8_text() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         return base::is_utf8(text) ? "" : "must be UTF-8 text, not '" + base::to_utf8(text) + "'";
+      },
+      "");
+}
+
+CLI::Validator job_id() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        if (!base::is_utf8(text)) return "must be UTF-8 text, not '" + base::to_utf8(text) + "'";
+        const bool hex = text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+        std::error_code unseen;
+        if (hex || text.starts_with('@') || !std::filesystem::is_regular_file(text, unseen)) return "";
+        return "'" + text + "' is a file, not a job; submit it first: affskel-client submit " +
+               shell_quoted(text);
       },
       "");
 }

@@ -27,6 +27,8 @@ CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
 CLI::Validator non_empty();
 /// Well-formed UTF-8: for what becomes a string of the protocol.
 CLI::Validator utf8_text();
+/// What may be an id of a job; a file that is there, whose mesh may be meant, is told to be submitted first.
+CLI::Validator job_id();
 /// A direction set; rewrites it to its one spelling.
 CLI::Validator direction_set();
 

@@ -114,7 +114,8 @@ void add_view(CommandLine& line) {
   command
       ->add_option("JOB", options->jobs, "Job id, a unique prefix of 6 characters or more, or @last; or two")
       ->required()
-      ->expected(1, 2);
+      ->expected(1, 2)
+      ->check(job_id());
   add_skeletons(command, *options);
   command
       ->add_option("--level", options->level,

@@ -109,9 +109,19 @@ class TokenFile {
   bool kept_ = false;
 };
 
+/// @throws StoreError kInvalid when the output goes to a file that others may read, as one made by `>` mostly is.
+void require_private_output() {
+  struct stat about {};
+  if (fstat(STDOUT_FILENO, &about) != 0 || !S_ISREG(about.st_mode)) return;
+  if ((about.st_mode & (S_IRGRP | S_IROTH)) != 0)
+    throw StoreError(StoreError::Code::kInvalid,
+                     "the output is a file that others may read; -o FILE makes one for you alone");
+}
+
 }  // namespace
 
 base::ExitCode add_token_command(const Options& options, const Console& console) {
+  if (options.output.empty()) require_private_output();
   TokenDatabase db(options.data_dir, true);
   const std::string token = new_token();
   std::optional<TokenFile> file;

@@ -23,10 +23,11 @@ core::Advice advice_for(const FinishedField& field, double level) {
   for (const core::FieldValue& value : field.values()) {
     if (value.direction != core::FieldValue::kNoDirection) largest = std::max(largest, value.erosion);
   }
-  const std::string share = base::to_text(largest / field.job().solid().volume);
-  return {"no sample point reaches the level " + base::to_text(level) + "; the largest E is " +
-              base::to_text(largest) + ", " + share + " of v0",
-          {}};
+  const double v0 = field.job().solid().volume;
+  const auto told = [&](double erosion) {
+    return base::rounded(erosion, 4) + " (" + base::rounded(100 * erosion / v0, 4) + " % of v0)";
+  };
+  return {"no sample point reaches the level " + told(level) + "; the largest E is " + told(largest), {}};
 }
 
 }  // namespace

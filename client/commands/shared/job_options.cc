@@ -9,7 +9,7 @@ namespace affskel::client {
 void add_job(CLI::App* command, std::string& job) {
   command->add_option("JOB", job, "Id, unique prefix of at least 6 characters, or @last")
       ->required()
-      ->check(utf8_text())
+      ->check(job_id())
       ->type_name("");
 }
 

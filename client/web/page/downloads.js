@@ -48,7 +48,7 @@ export class Downloads {
         h(
           'div',
           { class: 'fields' },
-          h('div', {}, h('label', { for: 'download-operator' }, 'Shocks found by'), this.operator),
+          h('div', {}, h('label', { for: 'download-operator' }, 'Skeleton by'), this.operator),
           h('div', {}, h('label', { for: 'download-threshold' }, 'Threshold'), this.threshold),
           h('div', {}, h('label', { for: 'download-level' }, 'Erosion level, % of the volume'), this.level),
         ),

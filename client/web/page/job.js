@@ -37,7 +37,7 @@ function asked(job) {
     ['Directions', directions || 'triangles'],
     ['Least over', wording('minima', minimum || session.usual.minimum)],
     ['Lattice along', wording('frames', frame || session.usual.frame)],
-    ['Shocks by', operatorOf(job)],
+    ['Skeleton by', operatorOf(job)],
     ['Priority', String(job.priority || 0)],
     ['Owner', job.owner],
     ['Submitted', moment(job.created_ms)],

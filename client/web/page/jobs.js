@@ -241,7 +241,8 @@ export class JobList {
   arrange() {
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const seen = ({ job }) => {
-      const text = `${job.name} ${job.owner} ${job.id} ${asked(job)}`.toLowerCase();
+      const told = asked(job);
+      const text = `${job.name} ${job.owner} ${job.id} ${told} ${told.replaceAll(',', '')}`.toLowerCase();
       if (this.owner.value && job.owner !== this.owner.value) return false;
       return (!this.state.value || job.state === this.state.value) && words.every((word) => text.includes(word));
     };

@@ -30,6 +30,16 @@ TEST_F(ClientTest, AMisspeltCommandIsNamed) {
   EXPECT_NE(run({}).err.find("no command was given"), std::string::npos);
 }
 
+TEST_F(ClientTest, AMeshWhereAJobIsWantedIsToldToBeSubmitted) {
+  for (const char* command : {"render", "view", "status"}) {
+    const Outcome refused = run({command, dir_ / "cube.off"});
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    EXPECT_NE(refused.err.find("is a file, not a job; submit it first: affskel-client submit"),
+              std::string::npos)
+        << refused.err;
+  }
+}
+
 TEST_F(ClientTest, WaitEndsWithTheJobsState) {
   EXPECT_EQ(run({"submit", dir_ / "cube.off", "--wait"}).exit_code, 0);
   service_.watch.back() = sample_job(v1::JOB_STATE_CANCELLED);

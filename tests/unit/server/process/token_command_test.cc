@@ -1,7 +1,11 @@
 #include "process/token_command.h"
 
+#include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "access/token.h"
@@ -61,6 +65,22 @@ TEST_F(TokenCommandTest, TheFirstTokenMakesTheDatabase) {
   EXPECT_EQ(row->role, v1::ROLE_ADMIN);
   EXPECT_FALSE(row->expires_ms);
   EXPECT_EQ(err_.find(token), std::string::npos);
+}
+
+TEST_F(TokenCommandTest, DoesNotGoToAFileThatOthersMayRead) {
+  const std::string file = (directory_.path() / "shared").string();
+  const int before = dup(STDOUT_FILENO), shared = open(file.c_str(), O_WRONLY | O_CREAT, 0644);
+  ASSERT_EQ(fchmod(shared, 0644), 0);
+  dup2(shared, STDOUT_FILENO);
+  testing::internal::CaptureStderr();
+  const int code = run_maintenance(adding("ada"));
+  const std::string said = testing::internal::GetCapturedStderr();
+  dup2(before, STDOUT_FILENO);
+  close(before);
+  close(shared);
+  EXPECT_EQ(code, 2);
+  EXPECT_NE(said.find("-o FILE"), std::string::npos) << said;
+  EXPECT_TRUE(std::filesystem::is_empty(file));
 }
 
 TEST_F(TokenCommandTest, WorksWhileAServerHoldsTheDirectory) {
