@@ -265,6 +265,8 @@ class Errors(WithDirectory):
         wrong = "spacing 200 .* measures 1 x 1 x 1 units, a person in metres; a spacing of 0.022 gives 100000"
         with self.assertRaisesRegex(affskel.BadInputError, wrong) as failure:
             client.submit((cube, faces), spacing=200)
+        with self.assertRaisesRegex(affskel.LimitError, "gives about 1e.12 sample points, and at most 2147483648"):
+            client.submit((cube, faces), spacing=1e-4)
         # Nor do a few points make a lattice, and a comment hides no mesh.
         commented = b"OFF # a cube\n# of ours\n" + CUBE.encode().split(b"\n", 1)[1]
         for mesh in (CUBE.encode(), commented):

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import Floats, Ints
-from ._errors import BadInputError
+from ._errors import BadInputError, LimitError
 
 
 class Polygons(NamedTuple):
@@ -99,6 +99,7 @@ def require_closed(mesh: Polygons, file: str = "") -> None:
 
 
 _UNITS = ((1.0, "metres"), (100.0, "centimetres"), (1000.0, "millimetres"))
+MAX_POINTS = 1 << 31
 LEAST_POINTS = 8  # a skeleton of fewer tells nothing: the spacing is meant in another unit
 
 
@@ -114,13 +115,17 @@ def _volume(mesh: Polygons) -> float:
 
 
 def require_points(mesh: Polygons, spacing: float, file: str = "") -> None:
-    """A lattice needs a few points.
+    """A lattice needs a few points, and at most 2^31.
 
     Raises:
+        LimitError: it would have more.
         BadInputError: with the size of the mesh, the unit that it looks like, and a spacing that would do.
     """
     size, volume = np.ptp(mesh.points, axis=0), _volume(mesh)
     longest = float(size.max())
+    if volume > MAX_POINTS * spacing ** 3:
+        raise LimitError(f"the spacing {spacing:.6g} gives about {volume / spacing ** 3:.3g} sample points, and at most "
+                         f"{MAX_POINTS} are taken; {(volume / MAX_POINTS) ** (1 / 3):.3g} is within that", file=file)
     if spacing <= longest / 2 and volume >= LEAST_POINTS * spacing ** 3:
         return
     unit = "".join(f", a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)

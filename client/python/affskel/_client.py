@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Union
 
-from ._checks import longest_side, require_closed, require_finite, require_points, share_of
+from ._checks import MAX_POINTS, longest_side, require_closed, require_finite, require_points, share_of
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -24,7 +24,6 @@ from .v1 import types_pb2 as types
 
 DEFAULT_POINTS = 100000
 MAX_NAME, MAX_OWNER = 200, 100  # bytes, by the contract
-MAX_POINTS = 1 << 31
 
 
 # How affskel-client tells what would mend a mesh with holes.
