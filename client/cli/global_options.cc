@@ -6,6 +6,27 @@
 #include "client/text/shell_quoted.h"
 
 namespace affskel::client {
+namespace {
+
+void add_budgets(CLI::App& app, Budgets& budgets) {
+  constexpr std::uint64_t kMaxSeconds = 1'000'000'000;
+  const auto add_limit = [&](const char* name, std::uint64_t& seconds, const char* what) {
+    app.add_option(name, seconds, what)
+        ->check(whole_number(0, kMaxSeconds))
+        ->capture_default_str()
+        ->type_name("S");
+  };
+  add_limit("--read-limit", budgets.read_limit_s,
+            "Processor time that reading a mesh may take, seconds; 0: any");
+  add_limit("--repair-limit", budgets.repair_limit_s,
+            "Processor time that mending and checking a mesh may take, seconds; 0: any");
+  app.add_option("--memory", budgets.memory,
+                 "Bytes of memory that either may take, with K, M or G for powers of 1024; default: any")
+      ->transform(CLI::AsSizeValue(false).description(""))
+      ->type_name("BYTES");
+}
+
+}  // namespace
 
 void add_global_options(CLI::App& app, GlobalOptions& options) {
   app.add_option("--server", options.server,
@@ -25,6 +46,7 @@ void add_global_options(CLI::App& app, GlobalOptions& options) {
   add_file("--client-key", options.access.tls_key, "Its key, PEM; else $AFFSKEL_CLIENT_KEY");
   app.add_flag("--json", options.json, "One JSON document on stdout; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.quiet, "No notes and no progress");
+  add_budgets(app, options.budgets);
 }
 
 std::string next_command(const GlobalOptions& options, const std::string& words) {

@@ -117,10 +117,13 @@ void draw(Console& console, const InspectOptions& options, const InputFile& inpu
   console.note("wrote " + destination.name());
 }
 
-void run_inspect(Console& console, const InspectOptions& options) {
+void run_inspect(Context& context, const InspectOptions& options) {
+  Console& console = context.console();
   const std::size_t places = options.all ? std::numeric_limits<std::size_t>::max() : kFewPlaces;
-  const InputFile input = read_named_input(options.file, options.reading);
-  const Inspection inspection = inspect(input, places);
+  const InputFile input = context.within_budget(
+      Budget::Work::kReading, options.file, [&] { return read_named_input(options.file, options.reading); });
+  const Inspection inspection =
+      context.within_budget(Budget::Work::kRepair, options.file, [&] { return inspect(input, places); });
   if (!options.picture.empty()) draw(console, options, input);
   console.result(facts_text(inspection.facts, options.all));
   console.document(inspection.facts);
@@ -135,7 +138,7 @@ void add_inspect(CommandLine& line) {
                                "  affskel-client inspect body.off\n  affskel-client inspect scan.off --all\n"
                                "  affskel-client --json inspect scan.stl\n"
                                "  affskel-client inspect scan.off --render defects.png",
-                               [options](Context& context) { run_inspect(context.console(), *options); });
+                               [options](Context& context) { run_inspect(context, *options); });
   command->add_option("FILE", options->file, std::string(kMeshKinds) + "; - reads it from stdin")
       ->required()
       ->check(mesh_file())

@@ -52,13 +52,15 @@ bool crosses_itself(core::Mesh mesh) {
   return !core::self_intersections(mesh, options).empty();
 }
 
-void run_perturb(Console& console, const PerturbOptions& options) {
+void run_perturb(Context& context, const PerturbOptions& options) {
+  Console& console = context.console();
   if (options.noise.empty() == !options.sigma) {
     throw ClientError(ExitCode::kUsage, "give either --noise (a share of the box diagonal) or --sigma");
   }
   const double fraction = options.noise.empty() ? 0 : fraction_of(options.noise);
   const Destination destination = destination_of(options.output, options.format, console);
-  ShapeFile shape = read_shape(options.file);
+  ShapeFile shape =
+      context.within_budget(Budget::Work::kReading, options.file, [&] { return read_shape(options.file); });
   if (shape.mesh().triangles.empty()) {
     throw ClientError(ExitCode::kBadInput, "has no triangles; noise is for the vertices of a mesh",
                       options.file);
@@ -110,7 +112,7 @@ void add_perturb(CommandLine& line) {
                "Every vertex moves by sigma times a normal number in x, y and z; vertices at one "
                "place move together.\n"
                "The same seed gives the same noise on every machine.",
-               [options](Context& context) { run_perturb(context.console(), *options); });
+               [options](Context& context) { run_perturb(context, *options); });
   add_file(command, "FILE", options->file, std::string(kMeshKinds));
   command->get_option("FILE")->check(mesh_file());
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");

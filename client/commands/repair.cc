@@ -41,7 +41,10 @@ void run_repair(Context& context, const RepairOptions& options) {
   Console& console = context.console();
   const RepairChoice choice = chosen_repair(options.how);
   const Destination destination = destination_of(options.output, options.format, console);
-  const Repair done = repaired(context, mesh_of(options, choice), options.file, choice);
+  const core::Mesh mesh =
+      context.within_budget(Budget::Work::kReading, options.file, [&] { return mesh_of(options, choice); });
+  const Repair done = context.within_budget(Budget::Work::kRepair, options.file,
+                                            [&] { return repaired(context, mesh, options.file, choice); });
   ShapeFile shape;
   shape.off.mesh = done.mesh;
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");

@@ -121,9 +121,11 @@ SubmittedSolid solid_of(Context& context, const std::string& file, const RepairC
 void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const RepairChoice repair = chosen_repair(options.repair);
-  InputFile input = read_named_input(options.file, options.reading);
+  InputFile input = context.within_budget(Budget::Work::kReading, options.file,
+                                          [&] { return read_named_input(options.file, options.reading); });
   say(console, conversion_notices(input));
-  const SubmittedSolid found = solid_of(context, options.file, repair, input);
+  const SubmittedSolid found = context.within_budget(
+      Budget::Work::kRepair, options.file, [&] { return solid_of(context, options.file, repair, input); });
   Submission asked = options.asked;
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
   const Notices said = check_mesh(input, found.solid, options.spacing, asked, console);

@@ -79,7 +79,8 @@ std::string comment_for(const std::vector<double>& numbers) {
   return text;
 }
 
-void run_transform(Console& console, const TransformOptions& options, const std::vector<AffineStep>& steps) {
+void run_transform(Context& context, const TransformOptions& options, const std::vector<AffineStep>& steps) {
+  Console& console = context.console();
   if (steps.empty()) {
     throw ClientError(ExitCode::kUsage,
                       "no map was given; use --matrix, --scale, --rotate, --translate or --shear");
@@ -87,7 +88,8 @@ void run_transform(Console& console, const TransformOptions& options, const std:
   core::AffineMap map = affine_map_of(steps);
   if (options.inverse) map = core::inverse(map);
   const Destination destination = destination_of(options.output, options.format, console);
-  ShapeFile shape = read_shape(options.file);
+  ShapeFile shape =
+      context.within_budget(Budget::Work::kReading, options.file, [&] { return read_shape(options.file); });
   const FileFormat format =
       choose_format(destination, shape_formats(shape), shape.is_surface() ? "surface" : "file of points");
   try {
@@ -126,7 +128,7 @@ void add_transform(CommandLine& line) {
       "Steps are taken in the order given. Normals are mapped as those of planes, E as a volume; H and "
       "other\n"
       "columns stay. A mirrored surface is turned over, so that it stays outward.",
-      [options, steps](Context& context) { run_transform(context.console(), *options, steps->in_order()); });
+      [options, steps](Context& context) { run_transform(context, *options, steps->in_order()); });
   add_file(command, "FILE", options->file,
            "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
   add_output(command, options->output,

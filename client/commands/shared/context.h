@@ -28,6 +28,12 @@ class Context {
   std::ostream& out() { return out_; }
   const Environment& environment() const { return environment_; }
   const GlobalOptions& global() const { return global_; }
+  /// What `task` makes of a file, within its budget.
+  template <class Task>
+  auto within_budget(Budget::Work work, const std::string& file, const Task& task) const {
+    const Budget budget(console_, global_.budgets, work, file);
+    return task();
+  }
   /// See client::next_command.
   std::string next_command(const std::string& words) const { return client::next_command(global_, words); }
 

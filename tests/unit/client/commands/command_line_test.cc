@@ -235,7 +235,7 @@ TEST(Completions, WorkInBash) {
   EXPECT_EQ(completed_by_bash("affskel-client submit --repair ''"), "auto none wrap fill= ");
   EXPECT_EQ(completed_by_bash("affskel-client submit --frame ''"), "axis pca obb affine ");
   EXPECT_EQ(completed_by_bash("affskel-client make t"), "torus tetrahedron ");
-  EXPECT_EQ(completed_by_bash("affskel-client make torus --m"), "--major --minor ");
+  EXPECT_EQ(completed_by_bash("affskel-client make torus --m"), "--major --minor --memory ");
   EXPECT_EQ(completed_by_bash("affskel-client compare a.ply b.ply --ra"), "--radius --radii ");
   EXPECT_EQ(completed_by_bash("affskel-client transform --s"), "--scale --shear --server ");
   EXPECT_EQ(completed_by_bash("affskel-client fetch @last s"), "skeleton surface source ");
