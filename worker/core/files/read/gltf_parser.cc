@@ -37,7 +37,7 @@ class Gltf {
     }
     drawn_.assign(list(text_, "nodes").size(), false);
     for (const std::size_t root : roots()) draw(root, AffineMap());
-    ShapeFile file = of_corners(corners_);
+    ShapeFile file = surface_.take();
     if (others_ > 0) file.off.passed_over.push_back({"points and lines", others_, 0});
     return file;
   }
@@ -158,7 +158,7 @@ class Gltf {
     for (std::size_t i = 0; i + 2 < at.size(); i += step) {
       std::uint32_t a = at[mode == kFan ? 0 : i], b = at[i + 1], c = at[i + 2];
       if (mirrored != (mode == kStrip && i % 2 == 1)) std::swap(b, c);
-      for (const std::uint32_t corner : {a, b, c}) corners_.push_back(points[corner]);
+      for (const std::uint32_t corner : {a, b, c}) surface_.add(points[corner]);
     }
   }
 
@@ -234,7 +234,8 @@ class Gltf {
       if (i > 0 || binary_.empty()) fail_at(0, numbered("buffer", i) + " has no bytes");
       return binary_;
     }
-    const std::string name = uri->is_string() ? uri->get<std::string>() : "";
+    static const std::string kNowhere;
+    const std::string& name = uri->is_string() ? uri->get_ref<const std::string&>() : kNowhere;
     const std::size_t comma = name.find(";base64,");
     if (!name.starts_with("data:") || comma == std::string::npos)
       fail_at(0, "has its numbers in another file, '" + name.substr(0, 60) + "'" + kAsGlb);
@@ -248,7 +249,7 @@ class Gltf {
   std::string_view binary_;  // the binary part of a .glb
   std::vector<std::optional<std::string>> decoded_;
   std::vector<bool> drawn_;  // by node
-  std::vector<Vec3> corners_;
+  CornerSurface surface_;
   std::uint64_t others_ = 0;  // primitives of points and lines
 };
 

@@ -10,7 +10,6 @@
 #include "core/files/read/other_kinds.h"
 #include "core/files/read/shape_parsers.h"
 #include "core/files/read/voxel_parsers.h"
-#include "core/mesh/coincident_points.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 #include "core/voxels/isosurface.h"
@@ -183,26 +182,6 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
   if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
   if (indices.size() > 3) count_cut(file.off, indices, line);
   cut_polygon(mesh.points, indices, mesh.triangles);
-}
-
-ShapeFile of_corners(const std::vector<Vec3>& corners) {
-  const std::vector<std::uint32_t> first = first_coincident_point(corners);
-  ShapeFile file;
-  Mesh& mesh = file.off.mesh;
-  std::vector<std::uint32_t> vertex(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (first[i] == i) {
-      vertex[i] = static_cast<std::uint32_t>(mesh.points.size());
-      mesh.points.push_back(corners[i]);
-    } else {
-      vertex[i] = vertex[first[i]];
-    }
-  }
-  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-    mesh.triangles.push_back({vertex[i], vertex[i + 1], vertex[i + 2]});
-  }
-  file.off.polygons = mesh.triangles.size();
-  return file;
 }
 
 void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/files/shape_file.h"
 
@@ -37,9 +40,24 @@ bool is_normal_column(std::string_view name);
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line);
 
-/// A surface of triangles by three corners each: corners at one place become one vertex, in the order in which
-/// they come first.  For formats that repeat vertices.
-ShapeFile of_corners(const std::vector<Vec3>& corners);
+/// A surface of triangles by three corners each, for formats that repeat vertices: corners at one place (0 and -0 are
+/// the same) become one vertex, in the order in which they come first.
+class CornerSurface {
+ public:
+  CornerSurface();
+  /// The next corner, finite.
+  void add(const Vec3& corner);
+  ShapeFile take();
+
+ private:
+  std::size_t slot_of(const Vec3& corner) const;
+  void grow();
+
+  std::uint64_t seed_ = 0;  // drawn anew, so that no file can be made whose places all meet in the table
+  Mesh mesh_;
+  std::uint32_t corners_ = 0;         // of the last triangle
+  std::vector<std::uint32_t> table_;  // open addressing by place: a vertex + 1, or 0
+};
 
 /// Adds the segments of a polyline to `file`; those of no length by index are left out.
 /// @param place names it in messages, @param line of it, 0 = none.

@@ -11,21 +11,21 @@ namespace {
 constexpr std::size_t kHeader = 84, kFacet = 50;
 
 ShapeFile parse_binary(std::string_view bytes) {
-  std::vector<Vec3> corners;
+  CornerSurface surface;
   for (std::size_t at = kHeader; at < bytes.size(); at += kFacet) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto coordinate = [&](std::size_t k) {
         return double{base::decode<float>(bytes.data() + at + 12 + 12 * c + 4 * k)};
       };
-      corners.push_back({coordinate(0), coordinate(1), coordinate(2)});
-      const Vec3& p = corners.back();
+      const Vec3 p{coordinate(0), coordinate(1), coordinate(2)};
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
         fail_at(0,
                 "triangle " + std::to_string((at - kHeader) / kFacet) + " has a corner that is not finite");
       }
+      surface.add(p);
     }
   }
-  return of_corners(corners);
+  return surface.take();
 }
 
 // The rows of a text file in the only order that they may have:
@@ -48,7 +48,7 @@ class TextReader {
       }
     }
     if (!outside_) fail_at(rows_.line(), "the file ends before endsolid");
-    return of_corners(corners_);
+    return surface_.take();
   }
 
  private:
@@ -78,11 +78,11 @@ class TextReader {
     expect(words[0] == "vertex", "vertex");
     if (words.size() != 4) fail_at(rows_.line(), "a vertex needs three coordinates");
     const auto coordinate = [&](std::size_t i) { return parse_finite(words[i], rows_.line(), "coordinate"); };
-    corners_.push_back({coordinate(1), coordinate(2), coordinate(3)});
+    surface_.add({coordinate(1), coordinate(2), coordinate(3)});
   }
 
   TextRows rows_;
-  std::vector<Vec3> corners_;
+  CornerSurface surface_;
   bool outside_ = true;
 };
 

@@ -6,10 +6,14 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <thread>
 
+#include "base/atomic_file.h"
 #include "client/base/error.h"
+#include "client/files/format.h"
 #include "client/files/read/read_file.h"
 #include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
@@ -196,6 +200,39 @@ TEST(CheckSolid, StopsWhenAsked) {
   const InputFile input = read_input(dir / "t.off");
   EXPECT_EQ(exit_of([&] { check_solid(input, true, &context); }), ExitCode::kCancelled);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+std::uint64_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  std::uint64_t kib = 0;
+  while (status >> word)
+    if (word == "VmHWM:") status >> kib;
+  return kib << 10;
+}
+
+// 0 when reading keeps to its bound.
+[[noreturn]] void read_within_bound(const std::string& path) {
+  const std::uint64_t before = peak_bytes();
+  const InputFile input = read_input(path);
+  const std::uint64_t taken = peak_bytes() - before;
+  std::fprintf(stderr, "%ju bytes for %ju\n", std::uintmax_t{taken}, std::uintmax_t{input.file_bytes});
+  _exit(taken <= 4 * input.file_bytes + (32U << 20) ? 0 : 1);
+}
+
+TEST(ReadInputDeathTest, TakesAtMostFourTimesTheFileAnd32Megabytes) {
+  const tests::TemporaryDirectory dir;
+  const ShapeFile shape = core::shape_of(core::make_sphere(1000, 1500000));
+  for (const char* name : {"a.off", "a.ply", "a.obj", "a.stl", "a.vtp"}) {
+    const std::string path = dir / name;
+    base::AtomicFile file(path);
+    const FileFormat format = choose_format(std::filesystem::path(path), surface_formats(), "mesh");
+    write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {}, write); });
+    file.commit();
+    EXPECT_EXIT(read_within_bound(path), ::testing::ExitedWithCode(0), "") << name;
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace affskel::client
