@@ -77,7 +77,13 @@ InputFile read_input(const std::string& path, const core::MeshFileOptions& optio
 }
 
 InputFile read_named_input(const std::string& name, const core::MeshFileOptions& options) {
-  if (name != "-") return read_input(name, options);
+  if (name != "-") {
+    core::MeshFileOptions with_files = options;
+    with_files.beside = [&name](const std::string& other) {
+      return read_file((std::filesystem::path(name).parent_path() / other).string());
+    };
+    return read_input(name, with_files);
+  }
   return parsed_input("stdin", read_standard_input("stdin"), "", options);
 }
 

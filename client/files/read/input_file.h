@@ -31,7 +31,8 @@ struct InputFile {
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path, const core::MeshFileOptions& options = {});
 
-/// The same of what a command line names: "-" is standard input, whose path becomes "stdin".
+/// The same of what a command line names, with the numbers that a header has in a file beside it; "-" is standard input,
+/// whose path becomes "stdin".
 InputFile read_named_input(const std::string& name, const core::MeshFileOptions& options = {});
 
 /// What a job of a file is called: "body" of "scans/body.off.gz".

@@ -16,7 +16,7 @@ bool is_metaimage(std::string_view bytes) {
          head.find("dimsize") != std::string::npos;
 }
 
-VoxelImage parse_metaimage(std::string_view bytes) {
+VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
   static const std::map<std::string, Scalar> kTypes = {{"met_char", kScalar<std::int8_t>},
                                                        {"met_uchar", kScalar<std::uint8_t>},
                                                        {"met_short", kScalar<std::int16_t>},
@@ -28,14 +28,19 @@ VoxelImage parse_metaimage(std::string_view bytes) {
                                                        {"met_float", kScalar<float>},
                                                        {"met_double", kScalar<double>}};
   VoxelHeader header;
-  const std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
+  std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
     const std::size_t sign = text.find('=');
     if (sign == std::string_view::npos) return true;
     header.set(text.substr(0, sign), text.substr(sign + 1), line);
     return lower_case(without_blanks(text.substr(0, sign))) != "elementdatafile";
   });
-  if (lower_case(header.word("elementdatafile")) != "local")
-    fail_at(header.line("elementdatafile"), std::string("has its numbers in another file") + kInOneFile);
+  if (!header.has("elementdatafile")) fail_at(0, "the header does not end");
+  std::string other;
+  if (const std::string name = header.word("elementdatafile"); lower_case(name) != "local") {
+    if (header.word("headersize", "0") != "0")
+      fail_at(header.line("headersize"), "skips bytes before its numbers, which is not read");
+    data = other = read_numbers_beside(name, header.line("elementdatafile"), beside);
+  }
   VoxelImage image;
   image.size = sizes_of(header.numbers("dimsize"), header.line("dimsize"));
   if (header.has("elementnumberofchannels") && header.word("elementnumberofchannels") != "1")

@@ -70,7 +70,7 @@ bool is_nrrd(std::string_view bytes) {
   return bytes.starts_with("NRRD000");
 }
 
-VoxelImage parse_nrrd(std::string_view bytes) {
+VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   VoxelHeader header;
   std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
     if (text.empty()) return false;
@@ -80,8 +80,9 @@ VoxelImage parse_nrrd(std::string_view bytes) {
     header.set(text.substr(0, colon), text.substr(colon + 1), line);
     return true;
   });
-  if (header.has("data file") || header.has("datafile"))
-    fail_at(0, std::string("has its numbers in another file") + kInOneFile);
+  std::string other;
+  for (const char* name : {"data file", "datafile"})
+    if (header.has(name)) data = other = read_numbers_beside(header.word(name), header.line(name), beside);
   VoxelImage image;
   image.size = sizes_of(header.numbers("sizes"), header.line("sizes"));
   image.place = nrrd_place(header);
@@ -95,6 +96,7 @@ VoxelImage parse_nrrd(std::string_view bytes) {
     take_numbers(unpack(data), numbers, image);
   } else if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
     const std::size_t count = voxels_of(image.size);
+    if (!other.empty()) fail_at(0, "has its numbers in another file as text, which is not read");
     if (count > data.size())
       fail_at(0, std::to_string(count) + " voxels announced, but only " + std::to_string(data.size()) +
                      " bytes follow");

@@ -94,7 +94,7 @@ std::string_view told_extension(std::string_view bytes) {
 }
 
 MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) {
-  const VoxelImage image = parse_voxels(bytes);
+  const VoxelImage image = parse_voxels(bytes, options.beside);
   if (!options.isovalue) {
     const auto [least, greatest] = std::minmax_element(image.values.begin(), image.values.end());
     throw CoreError(

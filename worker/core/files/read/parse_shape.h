@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/files/read/voxel_parsers.h"
 #include "core/files/shape_file.h"
 
 namespace affskel::core {
@@ -31,6 +32,7 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes);
 
 struct MeshFileOptions {
   std::optional<double> isovalue;  ///< of an image of voxels: at its surface, see isosurface
+  ReadBeside beside = {};          ///< of an image of voxels whose numbers are in another file
 };
 
 /// A mesh that was read from a file.

@@ -35,8 +35,9 @@ class VoxelHeader {
   std::map<std::string, Field, std::less<>> fields_;
 };
 
-/// Gives the lines of a header to `take`, up to one of which this says false; returns what is behind that.
-/// @throws CoreError kBadInput when there is none.
+/// Gives the lines of a header to `take`, up to one of which this says false or to the end of the bytes; returns what is
+/// behind that.
+/// @throws CoreError kBadInput for a line of more than 65,536 bytes, and for more than 10,000 lines.
 std::string_view read_header_lines(
     std::string_view bytes, const std::function<bool(std::string_view text, std::uint64_t line)>& take);
 

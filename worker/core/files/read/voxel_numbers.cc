@@ -53,6 +53,16 @@ std::array<std::size_t, 3> sizes_of(const std::vector<double>& numbers, std::uin
   return size;
 }
 
+std::string read_numbers_beside(const std::string& name, std::uint64_t line, const ReadBeside& beside) {
+  if (!beside) fail_at(line, std::string("has its numbers in another file") + kInOneFile);
+  if (name.empty() || name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
+    fail_at(line, "has its numbers in '" + name.substr(0, 60) +
+                      "', which is not in the same folder; put it there, and let the header name it alone");
+  if (name.starts_with("LIST") || name.find('%') != std::string::npos)
+    fail_at(line, std::string("has its numbers in several files") + kInOneFile);
+  return beside(name);
+}
+
 AffineMap place_of(const std::vector<Vec3>& steps, const Vec3& origin) {
   AffineMap map;
   map.rows = {Vec3{steps[0].x, steps[1].x, steps[2].x}, Vec3{steps[0].y, steps[1].y, steps[2].y},

@@ -9,6 +9,7 @@
 
 #include "base/coding.h"
 #include "core/base/vec3.h"
+#include "core/files/read/voxel_parsers.h"
 #include "core/voxels/voxel_image.h"
 
 namespace affskel::core {
@@ -59,11 +60,15 @@ std::array<std::size_t, 3> sizes_of(const std::vector<double>& numbers, std::uin
 /// The place of a voxel by the steps from one to the next along each axis.
 AffineMap place_of(const std::vector<Vec3>& steps, const Vec3& origin);
 
+/// The numbers that a header has in another file. @param line that names it.
+/// @throws CoreError kBadInput when no file beside may be read or it would be in another folder; what `beside` throws.
+std::string read_numbers_beside(const std::string& name, std::uint64_t line, const ReadBeside& beside);
+
 bool is_nrrd(std::string_view bytes);
 bool is_metaimage(std::string_view bytes);
 bool is_nifti(std::string_view bytes);
-VoxelImage parse_nrrd(std::string_view bytes);
-VoxelImage parse_metaimage(std::string_view bytes);
+VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside);
+VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside);
 VoxelImage parse_nifti(std::string_view bytes);
 
 }  // namespace affskel::core

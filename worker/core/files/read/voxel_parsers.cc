@@ -20,10 +20,10 @@ bool is_voxel_image(std::string_view bytes) {
   return is_nrrd(bytes) || is_metaimage(bytes) || is_nifti(bytes);
 }
 
-VoxelImage parse_voxels(std::string_view bytes) {
-  VoxelImage image = is_nrrd(bytes)    ? parse_nrrd(bytes)
+VoxelImage parse_voxels(std::string_view bytes, const ReadBeside& beside) {
+  VoxelImage image = is_nrrd(bytes)    ? parse_nrrd(bytes, beside)
                      : is_nifti(bytes) ? parse_nifti(bytes)
-                                       : parse_metaimage(bytes);
+                                       : parse_metaimage(bytes, beside);
   check_image(image);
   return image;
 }

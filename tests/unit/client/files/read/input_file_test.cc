@@ -234,5 +234,28 @@ TEST(ReadInputDeathTest, TakesAtMostFourTimesTheFileAnd32Megabytes) {
 }
 #endif
 
+// A header that came from elsewhere, an upload say, must not choose a file of this machine.
+TEST(ReadNamedInput, TakesTheNumbersOfAnImageFromAFileBesideItsHeader) {
+  const tests::TemporaryDirectory dir;
+  const std::string header = dir / "ct.mhd";
+  tests::write_file(header, "NDims = 3\nDimSize = 4 4 4\nElementType = MET_UCHAR\nElementDataFile = ct.raw");
+  core::MeshFileOptions options;
+  options.isovalue = 50;
+  try {
+    read_named_input(header, options);
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_EQ(error.file(), dir / "ct.raw");
+    EXPECT_EQ(error.exit_code(), ExitCode::kBadInput);
+  }
+  std::string values(64, '\0');
+  for (const std::size_t at : {21, 22, 25, 26, 37, 38, 41, 42}) values[at] = 'd';
+  tests::write_file(dir / "ct.raw", values);
+  const InputFile input = read_named_input(header, options);
+  EXPECT_EQ(input.format, "voxels");
+  EXPECT_FALSE(input.off.mesh.triangles.empty());
+  EXPECT_EQ(exit_of([&] { read_input(header, options); }), ExitCode::kBadInput);
+}
+
 }  // namespace
 }  // namespace affskel::client

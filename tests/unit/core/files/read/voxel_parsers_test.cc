@@ -53,13 +53,61 @@ TEST(ParseVoxels, PackedAndAsText) {
   expect_image(parse_voxels(metaimage("MET_FLOAT", "CompressedData = True\n", tests::gzipped(data))));
 }
 
-std::string image_refusal(const std::string& bytes) {
+std::string image_refusal(const std::string& bytes, const ReadBeside& beside = {}) {
   try {
-    parse_voxels(bytes);
+    parse_voxels(bytes, beside);
   } catch (const CoreError& error) {
     return error.what();
   }
   return "";
+}
+
+// A header that ends as the file does, and the numbers in another one.
+std::string mhd(const std::string& file, const std::string& more = "") {
+  std::string header = metaimage("MET_FLOAT", more, "");
+  return header.replace(header.find("LOCAL"), std::string::npos, file);
+}
+std::string nhdr(const std::string& file, const std::string& encoding) {
+  const std::string header = nrrd("float", "encoding: " + encoding + "\ndata file: " + file, "");
+  return header.substr(0, header.size() - 1);
+}
+
+TEST(ParseVoxels, WithNumbersInAFileBesideTheHeader) {
+  const std::string data = bytes_of<float>(false);
+  std::string asked, given = data;
+  const ReadBeside beside = [&](const std::string& name) {
+    asked = name;
+    return given;
+  };
+  expect_image(parse_voxels(mhd("a body.raw"), beside));
+  EXPECT_EQ(asked, "a body.raw");
+  expect_image(parse_voxels(nhdr("body.raw", "raw"), beside));
+  EXPECT_EQ(asked, "body.raw");
+  given = tests::gzipped(data);
+  expect_image(parse_voxels(mhd("body.zraw", "CompressedData = True\n"), beside));
+  expect_image(parse_voxels(nhdr("body.raw.gz", "gzip"), beside));
+  EXPECT_NE(image_refusal(nhdr("body.txt", "text"), beside).find("as text"), std::string::npos);
+  given = data.substr(4);
+  EXPECT_NE(image_refusal(mhd("body.raw"), beside).find("24 voxels announced, but only 92 bytes"),
+            std::string::npos);
+}
+
+TEST(ParseVoxels, AHeaderDoesNotChooseWhatIsRead) {
+  std::string asked;
+  const ReadBeside beside = [&](const std::string& name) {
+    asked = name;
+    return bytes_of<float>(false);
+  };
+  for (const char* name : {"/etc/passwd", "../body.raw", "scans/body.raw", "..\\body.raw", "..", "."}) {
+    EXPECT_NE(image_refusal(mhd(name), beside).find("not in the same folder"), std::string::npos) << name;
+    EXPECT_NE(image_refusal(nhdr(name, "raw"), beside).find("not in the same folder"), std::string::npos);
+  }
+  for (const char* name : {"LIST", "body%03d.raw 1 10 1"})
+    EXPECT_NE(image_refusal(mhd(name), beside).find("several files"), std::string::npos) << name;
+  EXPECT_NE(image_refusal(mhd("body.raw", "HeaderSize = 8\n"), beside).find("skips bytes"),
+            std::string::npos);
+  EXPECT_EQ(asked, "");
+  EXPECT_NE(image_refusal(mhd("body.raw")).find("another file"), std::string::npos);
 }
 
 TEST(ParseVoxels, SaysWhatIsWrong) {
