@@ -50,6 +50,20 @@ TEST(ParseMeshFile, ABinaryStlsHeaderMayBeginWithAnything) {
   EXPECT_THROW(parse_mesh_file(".off", binary_stl("ply") + "\n"), CoreError) << "too long for its count";
 }
 
+TEST(ParseShape, JoinsCornersOfStlInTheirOrderBe0Negative) {
+  const auto facet = [](const char* a, const char* b, const char* c) {
+    std::string text = "facet normal 0 0 0\nouter loop\n";
+    for (const char* corner : {a, b, c}) text += std::string("vertex ") + corner + "\n";
+    return text + "endloop\nendfacet\n";
+  };
+  const Mesh mesh = parse_shape(".stl", "solid\n" + facet("0 0 0", "1 0 0", "0 1 0") +
+                                            facet("0 1 -0", "1 -0 0", "-0 0 2") + "endsolid\n")
+                        .mesh();
+  ASSERT_EQ(mesh.points.size(), 4U);
+  EXPECT_EQ(mesh.points[3].z, 2);
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}}));
+}
+
 // The last faces of a PLY file are curves where a comment says so, and where they look like them.
 TEST(ParseShape, FacesOfTwoCornersAreCurvesWhereThatIsSaid) {
   const auto ply = [](const std::string& comment, const std::string& last) {
