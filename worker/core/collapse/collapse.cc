@@ -35,8 +35,8 @@ class Order {
     return std::max(0.0, farthest_ - sum / count);
   }
   double rank(Cell cell, Cell coface) const {
-    return -value_at(complex_, std::span<const float>(way_), cell) -
-           value_at(complex_, std::span<const float>(way_), coface);
+    const auto way = [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); };
+    return -value_at(complex_, cell, way) - value_at(complex_, coface, way);
   }
   void removed(Cell, Cell, double) {}
   void bared(Cell, double) {}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/bucket_queue.h"
@@ -103,15 +104,18 @@ class Collapsing {
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
     const Cell coface = coface_of(cell);  // not fixed, else the cell would be
-    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep),
-                {rules.rank(cell, coface), cell, coface});
+    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), {cell, coface});
   }
 
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
-    for (std::vector<Pair> wave; queue_.pop_all(wave);) {
+    std::vector<Pair> wave;
+    for (std::vector<std::pair<Cell, Cell>> offered; queue_.pop_all(offered);) {
       const double now = static_cast<double>(queue_.current()) * kStep;
+      wave.clear();
+      for (const auto& [cell, coface] : offered)
+        if (is_free(cell)) wave.push_back({rules.rank(cell, coface), cell, coface});
       std::sort(wave.begin(), wave.end());
       for (const Pair& pair : wave) {
         stop.did(100);
@@ -137,7 +141,7 @@ class Collapsing {
   const DualComplex& complex_;
   ExecutionContext* context_;
   std::vector<std::uint8_t> state_;  // by a cell's name: kThere, kFixed, and how many cofaces it has
-  BucketQueue<Pair> queue_;
+  BucketQueue<std::pair<Cell, Cell>> queue_;
 };
 
 }  // namespace affskel::core

@@ -254,18 +254,18 @@ inline double radius_about(const DualComplex& complex, std::span<const float> ra
 
 /// A value of cubes at the middle of a cell, continued to there from each cube about it, as it changes towards that
 /// cube's far side, and averaged: cells of one cube have different ones, and mirror images the same.
-/// @param values per cube.
+/// @param value value(cube).
 template <class Value>
-double value_at(const DualComplex& complex, std::span<const Value> values, DualComplex::Cell cell) {
+double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value& value) {
   const DualComplex::Star star = complex.star(cell);
   double sum = 0;
   for (const auto& [cube, place] : star) {
-    const auto here = static_cast<double>(values[cube]);
+    const double here = value(cube);
     sum += here;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::uint32_t digit = DualComplex::digit(place, axis);
       const std::uint32_t behind = digit == 1 ? DualComplex::kNone : complex.neighbour(cube, axis, 2 - digit);
-      if (behind != DualComplex::kNone) sum += 0.5 * (here - static_cast<double>(values[behind]));
+      if (behind != DualComplex::kNone) sum += 0.5 * (here - value(behind));
     }
   }
   return sum / static_cast<double>(star.count);

@@ -38,7 +38,13 @@ class Thinning {
     return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
   }
 
-  double rank(Cell cell, Cell coface) const { return level_at(cell) + level_at(coface); }
+  // Depths before heights: a line that heights led would run to where E is great, not along its limb.
+  double rank(Cell cell, Cell coface) const {
+    const auto level = [&](std::uint32_t cube) {
+      return static_cast<double>(depth_[cube]) + slight_ * height_[cube];
+    };
+    return value_at(complex_, cell, level) + value_at(complex_, coface, level);
+  }
 
   void bared(Cell cell, double now) {
     if (DualComplex::dimension(cell) == 1) birth_.emplace(cell, now);
@@ -120,16 +126,10 @@ class Thinning {
 
   double radius_at(Cell vertex) const { return radius_about(complex_, depth_, vertex); }
 
-  // Depths, continued to cells, before heights: a line that heights led would run to where E is great, not along its limb.
-  double level_at(Cell cell) const {
-    constexpr double kSlight = 1e-3;
-    return value_at(complex_, depth_, cell) + kSlight * value_at(complex_, height_, cell) / highest_;
-  }
-
   const DualComplex& complex_;
   std::span<const float> depth_;
   std::span<const double> height_;
-  double highest_ = *std::max_element(height_.begin(), height_.end());
+  double slight_ = 1e-3 / *std::max_element(height_.begin(), height_.end());
   double least_reach_;
   std::vector<Line> lines_;
   std::unordered_map<Cell, double> birth_;           // of lone edges
