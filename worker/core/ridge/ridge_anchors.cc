@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "core/base/disjoint_sets.h"
@@ -190,12 +191,12 @@ class Choice {
     return is_near(complex_, vertex, static_cast<float>(longest), anchored);
   }
 
-  // How far from a tip what is anchored may end: the surface is the tip's own radius farther away.  Where that is less
-  // than half its limb's, the tip is in a corner of a blunt end, beside its middle by no more than the limb's width.
+  // How far from a tip what is anchored may end: so far from the surface, which is the tip's own radius farther away.
+  // Where that is less than half its limb's, the tip may be in a corner of a blunt end: so far from three sides.
   double allowed_from(const LimbTip& tip) const {
     const double radius = radius_about(complex_, evidence_.radius, tip.vertex);
-    if (radius < 0.5 * tip.radius) return 1 + tip.width;
-    return constants_.end_spacings + constants_.end_radii * tip.radius - radius;
+    const double sides = radius < 0.5 * tip.radius ? std::numbers::sqrt3 : 1;
+    return constants_.end_spacings + sides * (constants_.end_radii * tip.radius - radius);
   }
 
   // For components that have no anchor yet.
