@@ -94,6 +94,7 @@ void run_web(Context& context, const WebCommandOptions& options, const GlobalOpt
   web.personal = is_personal(backend, address);
   web.secure = identity.has_value();
   web.hosts.loopback = address.is_local();
+  web.repair_limit = std::chrono::seconds(global.budgets.repair_limit_s);
   if (identity) web.hosts.certified = [&](const std::string& name) { return identity->names(name); };
 
   std::unique_ptr<WebService> service;

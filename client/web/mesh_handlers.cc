@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -148,10 +149,10 @@ http::Response turn_mesh(WebCall& call) {
   return api_answer({{"href", view_of(call, input, name)}}, 201);
 }
 
-// That a file is no mesh is an answer, too.
-http::Response take_mesh(WebCall& call) {
+namespace {
+
+http::Response taken_mesh(WebCall& call, UntilGone& context) {
   const std::string name = upload_name(call.request);
-  UntilGone context(call.request.gone);
   InputFile input;
   WebSource source;
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
@@ -188,6 +189,23 @@ http::Response take_mesh(WebCall& call) {
   answer["mesh"] =
       call.web.meshes.put(call.session.id, std::make_shared<UploadedMesh>(std::move(mesh)), bytes);
   return api_answer(answer);
+}
+
+}  // namespace
+
+// That a file is no mesh is an answer, too.
+http::Response take_mesh(WebCall& call) {
+  const std::chrono::nanoseconds limit = call.web.options.repair_limit;
+  UntilGone context(call.request.gone, limit);
+  try {
+    return taken_mesh(call, context);
+  } catch (const std::exception&) {
+    if (!context.met_limit()) throw;
+    throw ClientError(ExitCode::kLimit,
+                      "mending and checking it takes more than " +
+                          std::to_string(std::chrono::ceil<std::chrono::seconds>(limit).count()) +
+                          " s of processor time (--repair-limit of affskel-client web)");
+  }
 }
 
 http::Response lay_lattice(WebCall& call) {

@@ -101,7 +101,8 @@ Made make_picture(WebState& web, Session& server, const nlohmann::json& body, co
   options.render.background = parse_background(background);
   options.level = number_member(body, "fraction");
   Made made{finished_job(server, job), {}};
-  const auto picture = drawn(web, server, made.job, options, background + " " + std::to_string(options.level));
+  const auto picture =
+      drawn(web, server, made.job, options, background + " " + std::to_string(options.level));
   write_whole(path, picture->png);
   made.notices = picture->notices;
   made.facts["shown"] = picture->shown;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stop_token>
@@ -50,13 +51,14 @@ class WebServiceTest : public ClientTest {
     return made;
   }
 
-  void serve(bool personal) {
+  void serve(bool personal, std::chrono::nanoseconds repair_limit = {}) {
     RetryPolicy retry;
     retry.first_pause = std::chrono::milliseconds(1);
     retry.patience = std::chrono::milliseconds(200);
     WebOptions options;
     options.port = 8080;
     options.personal = personal;
+    options.repair_limit = repair_limit;
     web_ = std::make_unique<WebService>(
         Backend(test_environment({{"HOME", dir_.path()}}), server_.address(), {}, retry), options);
   }

@@ -157,6 +157,16 @@ TEST_F(WebServiceTest, ComputesNothingForWhoHasGone) {
   EXPECT_EQ(ask("GET", "/api/meshes/" + mesh + "/lattice?points=8000").error(), "stopped before the end");
 }
 
+TEST_F(WebServiceTest, SaysThatMendingMetItsTime) {
+  serve(true, std::chrono::nanoseconds(1));
+  sign_in();
+  const Answer refused = ask("POST", "/api/meshes?name=a.off&repair=wrap", mesh_);
+  EXPECT_EQ(refused.status, 507);
+  EXPECT_EQ(
+      refused.error(),
+      "mending and checking it takes more than 1 s of processor time (--repair-limit of affskel-client web)");
+}
+
 // An image of voxels is asked for the value at its surface, and is a mesh from then on.
 TEST_F(WebServiceTest, TakesImagesOfVoxels) {
   sign_in();
@@ -226,8 +236,7 @@ TEST_F(WebServiceTest, CountsPointsForASpacingAndBack) {
   for (const char* wrong : {"", "?spacing=0", "?spacing=x", "?points=-5", "?points=1e10", "?spacing=1e999"})
     EXPECT_EQ(ask("GET", lattice + wrong).status, 400) << wrong;
   EXPECT_EQ(ask("GET", lattice + "?spacing=100&frame=sideways").status, 400);
-  EXPECT_NE(ask("GET", lattice + "?spacing=3000").body.find("the mesh measures 2000 x"),
-            std::string::npos)
+  EXPECT_NE(ask("GET", lattice + "?spacing=3000").body.find("the mesh measures 2000 x"), std::string::npos)
       << ask("GET", lattice + "?spacing=3000").body;
   EXPECT_EQ(ask("GET", "/api/meshes/unknown/lattice?points=5").status, 404);
   // A plate: few points on many lines, of which one request could take all memory.
