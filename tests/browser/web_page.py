@@ -17,10 +17,10 @@ from browser import PATIENCE, chromium
 
 
 class Service:
-    """affskel-client web, on any free port."""
+    """affskel-client web, at HTTP or on any free port."""
 
-    def __init__(self, client, environment, *arguments):
-        self.process = subprocess.Popen([client, "--json", *arguments, "web", "--no-open"], env=environment,
+    def __init__(self, client, environment, *arguments, http="127.0.0.1:0"):
+        self.process = subprocess.Popen([client, "--json", *arguments, "web", "--no-open", "--http", http], env=environment,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         if not line:

@@ -587,6 +587,12 @@ class Desktop(OnThePage):
         other.screenshot("desktop-8-locked")
         refused = [message for message in other.errors() if "401" not in message]
         self.assertEqual(refused, [])
+        # The address of the next start, pasted into the same tab.
+        self.page.driver.get("about:blank")  # which would ask on
+        self.stop()
+        self.service = Service(CLIENT, bench.environment, http=self.service.origin.removeprefix("http://"))
+        other.script(f"location.href = '{self.service.address}'")
+        other.heading("Jobs")
 
 
 class SigningIn(unittest.TestCase):
