@@ -54,6 +54,8 @@ Stage::Stage(const Programs& programs, const std::string& dir, const std::string
 std::string Stage::token_command(std::vector<std::string> arguments) const {
   const std::string out = path("token.out"), err = path("token.err");
   for (const std::string& file : {out, err}) tests::write_file(file, "");
+  using std::filesystem::perms;
+  std::filesystem::permissions(out, perms::owner_read | perms::owner_write);  // a token goes to no other file
   arguments.insert(arguments.begin(), {programs_.server, "token"});
   arguments.insert(arguments.end(), {"--data-dir", data_dir_, "--json"});
   if (run({std::move(arguments), out, err, {}}, kPatience) != 0) {

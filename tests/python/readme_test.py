@@ -43,7 +43,7 @@ class Readme(unittest.TestCase):
         for page in ("README.md", "client/python/README.md"):
             with self.subTest(page):
                 text = example(page)
-                self.assertIn('affskel.submit("body.off", spacing=200)', text)
+                self.assertIn('affskel.submit("body.off", spacing="1%")', text)
                 names = {}
                 exec(compile(text, page, "exec"), names)  # pylint: disable=exec-used
                 self.assert_results(names)

@@ -1,9 +1,13 @@
 #include "core/voxels/isosurface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
@@ -17,8 +21,76 @@ constexpr double kCellsAlongTheSolid = 200;
 constexpr int kFairingRounds = 3;
 constexpr double kMaxCubes = 16777216;
 
+// How far the surface is at least, by blocks of voxels: a block spans its voxels and the way to the next ones, and those
+// with both sides in them hold the whole surface.
+class Clearance {
+ public:
+  // @param is_inside of a voxel; behind the last ones is none.
+  template <class IsInside>
+  Clearance(const std::array<std::size_t, 3>& size, const IsInside& is_inside) {
+    for (std::size_t a = 0; a < 3; ++a) blocks_[a] = size[a] / kBlock + 1;
+    away_.assign(blocks_[0] * blocks_[1] * blocks_[2], kFar);
+    for_each_block([&](std::size_t i, std::size_t j, std::size_t k, std::uint8_t& away) {
+      bool some = false, all = true;
+      for (std::size_t z = k * kBlock; z <= (k + 1) * kBlock; ++z)
+        for (std::size_t y = j * kBlock; y <= (j + 1) * kBlock; ++y)
+          for (std::size_t x = i * kBlock; x <= (i + 1) * kBlock; ++x)
+            (is_inside(x, y, z) ? some : all) = is_inside(x, y, z);
+      const bool before_first = (i == 0 || j == 0 || k == 0) && some;
+      if ((some && !all) || before_first) away = 0;
+    });
+    for (std::size_t axis = 0; axis < 3; ++axis) spread_along(axis);
+  }
+
+  // From a place, voxels.
+  double at(const Vec3& p) const {
+    const auto block = [&](double at, std::size_t axis) {
+      const double b = std::floor(at / kBlock);
+      return static_cast<std::size_t>(std::clamp(b, 0.0, static_cast<double>(blocks_[axis] - 1)));
+    };
+    const std::uint8_t away = away_[index(block(p.x, 0), block(p.y, 1), block(p.z, 2))];
+    return away < 2 ? 0 : (away - 1.0) * kBlock;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 4;
+  static constexpr std::uint8_t kFar = 255;
+
+  std::size_t index(std::size_t i, std::size_t j, std::size_t k) const {
+    return (k * blocks_[1] + j) * blocks_[0] + i;
+  }
+  template <class Body>
+  void for_each_block(const Body& body) {
+    for (std::size_t k = 0; k < blocks_[2]; ++k)
+      for (std::size_t j = 0; j < blocks_[1]; ++j)
+        for (std::size_t i = 0; i < blocks_[0]; ++i) body(i, j, k, away_[index(i, j, k)]);
+  }
+  // The least, over the line, of the greater of the way along it and what is known there: after all axes the greatest
+  // of the three ways, blocks.
+  void spread_along(std::size_t axis) {
+    const std::size_t step = axis == 0 ? 1 : axis == 1 ? blocks_[0] : blocks_[0] * blocks_[1];
+    std::vector<std::uint8_t> line(blocks_[axis]);
+    for_each_block([&](std::size_t i, std::size_t j, std::size_t k, std::uint8_t& first) {
+      if (std::array{i, j, k}[axis] != 0) return;
+      for (std::size_t n = 0; n < line.size(); ++n) line[n] = (&first)[n * step];
+      for (std::size_t n = 0; n < line.size(); ++n) {
+        std::size_t least = line[n];
+        for (std::size_t way = 1; way < least; ++way) {
+          if (n >= way) least = std::min(least, std::max<std::size_t>(way, line[n - way]));
+          if (n + way < line.size()) least = std::min(least, std::max<std::size_t>(way, line[n + way]));
+        }
+        (&first)[n * step] = static_cast<std::uint8_t>(least);
+      }
+    });
+  }
+
+  std::array<std::size_t, 3> blocks_{};
+  std::vector<std::uint8_t> away_;  // per block: blocks to the nearest that holds a part of the surface
+};
+
 // The image with a layer of voxels around it that lie outside of the solid, as a function of indices: negative within,
-// and scaled so that it falls by no more than 1 per voxel.
+// and scaled so that it falls by no more than 1 per voxel; far from the surface, where masks have the same value
+// everywhere, at least as large as the surface is away, so that no cubes are looked at there.
 class Inside {
  public:
   Inside(const VoxelImage& image, double isovalue) : image_(image), isovalue_(isovalue) {
@@ -45,6 +117,9 @@ class Inside {
       throw CoreError(CoreError::Code::kBadInput,
                       "has no voxel on the inner side of " + base::to_text(isovalue));
     steepest_ *= std::sqrt(3.0);  // the slope along each axis at once
+    clearance_ = std::make_shared<const Clearance>(image.size, [&](std::size_t i, std::size_t j, std::size_t k) {
+      return (voxel(i, j, k) < isovalue_) == below_;
+    });
   }
 
   double operator()(const Vec3& p) const {
@@ -55,7 +130,8 @@ class Inside {
       const bool a = (corner & 1) != 0, b = (corner & 2) != 0, c = (corner & 4) != 0;
       value += (a ? u : 1 - u) * (b ? v : 1 - v) * (c ? w : 1 - w) * voxel_at(x + a, y + b, z + c);
     }
-    return (below_ ? value - isovalue_ : isovalue_ - value) / steepest_;
+    const double fallen = (below_ ? value - isovalue_ : isovalue_ - value) / steepest_;
+    return std::copysign(std::max(std::abs(fallen), clearance_->at(p)), fallen);
   }
 
   bool below() const { return below_; }
@@ -102,6 +178,7 @@ class Inside {
   double outside_ = 0;
   double steepest_ = 0;
   std::array<Reach, 3> reach_;  // indices of the inner voxels
+  std::shared_ptr<const Clearance> clearance_;
 };
 
 }  // namespace

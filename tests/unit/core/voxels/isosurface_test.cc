@@ -1,9 +1,13 @@
 #include "core/voxels/isosurface.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <functional>
+#include <string>
 
 #include "core/base/error.h"
 #include "core/shapes/body_shape.h"
@@ -53,6 +57,30 @@ TEST(Isosurface, OfABallHasItsVolume) {
     }
   }
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+std::uint64_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  std::uint64_t kib = 0;
+  while (status >> word)
+    if (word == "VmHWM:") status >> kib;
+  return kib << 10;
+}
+
+// A mask has the same two values everywhere: what is far from its surface takes no memory, whose cubes would take 200 MB.
+TEST(IsosurfaceDeathTest, OfAMaskLooksAtWhatIsNearAlone) {
+  const VoxelImage image = sampled({160, 160, 160}, grid({-80, -80, -80}, 1),
+                                   [](const Vec3& p) { return ball(p) < 0 ? 1.0 : 0.0; });
+  EXPECT_EXIT(
+      {
+        const std::uint64_t before = peak_bytes();
+        const Isosurface found = isosurface(image, {0.5});
+        _exit(!found.below && peak_bytes() - before < (48U << 20) ? 0 : 1);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+#endif
 
 // What the image's border cuts off is closed there.
 TEST(Isosurface, IsClosedWhereTheSolidLeavesTheImage) {
