@@ -117,9 +117,9 @@ class Inside {
       throw CoreError(CoreError::Code::kBadInput,
                       "has no voxel on the inner side of " + base::to_text(isovalue));
     steepest_ *= std::sqrt(3.0);  // the slope along each axis at once
-    clearance_ = std::make_shared<const Clearance>(image.size, [&](std::size_t i, std::size_t j, std::size_t k) {
-      return (voxel(i, j, k) < isovalue_) == below_;
-    });
+    clearance_ = std::make_shared<const Clearance>(
+        image.size,
+        [&](std::size_t i, std::size_t j, std::size_t k) { return (voxel(i, j, k) < isovalue_) == below_; });
   }
 
   double operator()(const Vec3& p) const {
