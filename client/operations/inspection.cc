@@ -19,8 +19,9 @@ ordered_json file_facts(const InputFile& input) {
                         {"bytes", input.file_bytes},
                         {"sha256", input.file_sha256}};
   if (input.converted()) {
-    facts["submitted_bytes"] = input.bytes.size();
-    facts["submitted_sha256"] = wire::sha256_hex(input.bytes);
+    const OffText text(input);
+    facts["submitted_bytes"] = text.view().size();
+    facts["submitted_sha256"] = wire::sha256_hex(text.view());
   }
   facts["vertices"] = input.off.mesh.points.size();
   facts["polygons"] = input.off.polygons;

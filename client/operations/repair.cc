@@ -55,10 +55,10 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
 }
 
 MeshSource replace_mesh(InputFile& input, Repair repaired) {
-  MeshSource source{std::move(input.bytes), std::move(repaired.steps)};
+  MeshSource source{std::string(OffText(input).view()), std::move(repaired.steps)};
   input.off = core::OffMesh();
   input.off.mesh = std::move(repaired.mesh);
-  input.bytes = core::write_off(input.off.mesh);
+  if (input.off_text) input.bytes = core::write_off(input.off.mesh);
   return source;
 }
 

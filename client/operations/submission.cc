@@ -40,7 +40,7 @@ void require_short(const std::string& text, std::size_t bytes, const std::string
   }
 }
 
-v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& input) {
+v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& input, std::string_view text) {
   require_short(submission.name, kMaxName, "name");
   require_short(submission.request_id, kMaxRequestId, "request id");
   v1::SubmitJobHeader header;
@@ -58,8 +58,8 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   header.mutable_params()->set_repair(submission.repair);
   *header.mutable_skeleton() = skeleton_params(submission.skeleton);
   header.set_request_id(submission.request_id);
-  header.set_mesh_sha256(wire::sha256_hex(input.bytes));
-  header.set_mesh_bytes(input.bytes.size());
+  header.set_mesh_sha256(wire::sha256_hex(text));
+  header.set_mesh_bytes(text.size());
   return header;
 }
 
@@ -76,7 +76,7 @@ v1::MeshRepair repair_of(const MeshSource& source) {
   return repair;
 }
 
-void check_size(const v1::ServerInfo& server, const std::string& path, const std::string& bytes) {
+void check_size(const v1::ServerInfo& server, const std::string& path, std::string_view bytes) {
   const std::uint64_t most = server.max_mesh_bytes();
   if (most > 0 && bytes.size() > most) {
     throw ClientError(
@@ -126,10 +126,11 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
 
 Submitted submit(Session& session, const Environment& environment, const InputFile& input,
                  const MeshSource* source, const Submission& submission) {
-  v1::SubmitJobHeader header = header_for(submission, input);
-  GivenMeshes meshes{input.bytes, {}};
+  const OffText text(input);
+  v1::SubmitJobHeader header = header_for(submission, input, text.view());
+  GivenMeshes meshes{text.view(), {}};
   const v1::ServerInfo server = session.server_info();
-  check_size(server, input.path, input.bytes);
+  check_size(server, input.path, text.view());
   if (source != nullptr) {
     check_size(server, input.path, source->bytes);
     *header.mutable_repair() = repair_of(*source);

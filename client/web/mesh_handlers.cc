@@ -100,7 +100,7 @@ Submission submission_of(const nlohmann::json& body) {
 }
 
 // The upload becomes OFF text.
-void replace_upload(WebCall& call, const std::string& text) {
+void replace_upload(WebCall& call, std::string_view text) {
   auto file = std::make_unique<OwnedFile>(call.web.folder.new_path(".off"));
   base::AtomicFile out(file->path());
   out.write(text);
@@ -160,7 +160,7 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
     input = read_input(call.upload->path().string(), reading_of(call));
     if (!input.told.empty()) {
       steps.push_back({{"severity", "note"}, {"code", "isosurface"}, {"message", input.told}});
-      replace_upload(call, input.bytes);
+      replace_upload(call, OffText(input).view());
     }
     if (!call.request.parameter("repair").empty()) {
       source = replace_by_repaired(call, name, input, &context);
@@ -247,7 +247,10 @@ http::Response submit_mesh(WebCall& call) {
   const InputFile input = read_input(mesh->file->path().string());
   check_submission(mesh->solid, input, submission);
   std::optional<MeshSource> source;
-  if (mesh->source) source = {read_input(mesh->source->path().string()).bytes, mesh->steps};
+  if (mesh->source) {
+    const InputFile came = read_input(mesh->source->path().string());
+    source = {std::string(OffText(came).view()), mesh->steps};
+  }
   Session server = call.server();
   const auto [job, existed] =
       submit(server, call.web.backend.environment(), input, source ? &*source : nullptr, submission);

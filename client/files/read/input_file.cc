@@ -38,9 +38,7 @@ void parse(InputFile& input, std::string_view extension, const core::MeshFileOpt
   input.off_text = file.off_text;
   input.told = std::move(file.told);
   input.off = std::move(file.off);
-  if (input.off_text) return;
-  input.bytes = std::string();  // not both at once
-  input.bytes = core::write_off(input.off.mesh);
+  if (!input.off_text) input.bytes = std::string();
 }
 
 InputFile parsed_input(const std::string& path, std::string bytes, const std::string& extension,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "client/base/error.h"
 #include "client/base/notice.h"
@@ -15,7 +16,7 @@ namespace affskel::client {
 /// A mesh file that was read and parsed.
 struct InputFile {
   std::string path;
-  std::string bytes;           ///< OFF text: the file's own, or what was made of another format
+  std::string bytes;           ///< of OFF text, unpacked; of another format none, see OffText
   core::OffMesh off;           ///< with the lines of the file, where it is text
   std::string format = "off";  ///< of the file, see core::MeshFile
   bool off_text = true;        ///< of the file, unpacked
@@ -26,8 +27,21 @@ struct InputFile {
   bool converted() const { return !off_text || !packed.empty(); }
 };
 
+/// The OFF text that is submitted of a file: its own, or that of its surface, made here.
+class OffText {
+ public:
+  /// @param input must outlive this.
+  explicit OffText(const InputFile& input)
+      : input_(input), made_(input.off_text ? std::string() : core::write_off(input.off.mesh)) {}
+  std::string_view view() const { return input_.off_text ? input_.bytes : made_; }
+
+ private:
+  const InputFile& input_;
+  std::string made_;
+};
+
 /// Reads and parses a mesh, see core::parse_mesh_file, unpacked where it is compressed.  OFF text is kept byte for
-/// byte; of everything else `bytes` are the OFF text of the surface.
+/// byte.
 /// @throws ClientError as read_file, and kBadInput with the line for malformed text.
 InputFile read_input(const std::string& path, const core::MeshFileOptions& options = {});
 

@@ -253,6 +253,7 @@ class Gltf {
   std::uint64_t others_ = 0;  // primitives of points and lines
 };
 
+constexpr std::size_t kMostValues = 400'000;
 constexpr std::uint32_t kJsonPart = 0x4E4F534A, kBinaryPart = 0x004E4942;
 
 }  // namespace
@@ -274,7 +275,14 @@ ShapeFile parse_gltf(std::string_view bytes) {
       at += size;
     }
   }
-  json parsed = json::parse(text.begin(), text.end(), nullptr, false);
+  // A value takes up to thirty times its bytes.
+  std::size_t values = 0;
+  const auto counted = [&](int, json::parse_event_t, const json&) {
+    if (++values > kMostValues)
+      fail_at(0, "has more than " + std::to_string(kMostValues) + " values in its JSON" + kAsGlb);
+    return true;
+  };
+  json parsed = json::parse(text.begin(), text.end(), counted, false);
   if (!parsed.is_object() || !parsed.contains("asset")) fail_at(0, "is no glTF: its JSON has no 'asset'");
   return Gltf(std::move(parsed), binary).run();
 }

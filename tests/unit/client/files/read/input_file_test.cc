@@ -109,7 +109,7 @@ TEST(ReadInput, MakesOffTextOfOtherFormats) {
     EXPECT_EQ(input.file_bytes, bytes.size());
     EXPECT_EQ(input.file_sha256, wire::sha256_hex(bytes));
     // What is submitted is the surface, its corners joined, whatever STL repeats.
-    const core::Mesh read = core::read_off(input.bytes).mesh;
+    const core::Mesh read = core::read_off(OffText(input).view()).mesh;
     EXPECT_EQ(read.points.size(), 8u) << path;
     EXPECT_EQ(read.triangles.size(), 12u) << path;
     EXPECT_EQ(core::make_solid(read, {false}).volume, 6) << path;
