@@ -228,6 +228,7 @@ class Gltf {
   }
 
   std::string_view buffer(std::size_t i) {
+    if (i < decoded_.size() && decoded_[i]) return *decoded_[i];
     const json& told = item(list(text_, "buffers"), i, "buffer");
     const auto uri = told.find("uri");
     if (uri == told.end()) {
@@ -240,8 +241,9 @@ class Gltf {
     if (!name.starts_with("data:") || comma == std::string::npos)
       fail_at(0, "has its numbers in another file, '" + name.substr(0, 60) + "'" + kAsGlb);
     if (decoded_.size() <= i) decoded_.resize(i + 1);
-    if (!decoded_[i]) decoded_[i] = bytes_of_base64(std::string_view(name).substr(comma + 8));
+    decoded_[i] = bytes_of_base64(std::string_view(name).substr(comma + 8));
     if (!decoded_[i]) fail_at(0, numbered("buffer", i) + " is not base64");
+    text_["buffers"][i]["uri"] = nullptr;  // it is as long as the file
     return *decoded_[i];
   }
 
