@@ -215,6 +215,7 @@ class Gltf {
     const View from = view(*accessor, "SCALAR", 1, place);
     if (from.component != kByte && from.component != kShort && from.component != kInt)
       fail_at(0, place + ": its indices are no whole numbers");
+    found.reserve(from.count);
     for (std::size_t i = 0; i < from.count; ++i) {
       const char* at = from.data + i * from.stride;
       const std::uint32_t one = from.component == kByte    ? base::decode<std::uint8_t>(at)
