@@ -45,8 +45,11 @@ GltfParts gltf_parts(const Mesh& mesh, std::size_t stride) {
     parts.binary.resize(parts.binary.size() + stride - 12, '\x7f');
   }
   const std::size_t positions = parts.binary.size();
+  const bool is_short = mesh.points.size() <= 65536;
   for (const Triangle& t : mesh.triangles)
-    for (const std::uint32_t corner : t) base::append(parts.binary, static_cast<std::uint16_t>(corner));
+    for (const std::uint32_t corner : t)
+      is_short ? base::append(parts.binary, static_cast<std::uint16_t>(corner))
+               : base::append(parts.binary, corner);
   parts.text = {
       {"asset", {{"version", "2.0"}}},
       {"scenes", {{{"nodes", {0}}}}},
@@ -55,7 +58,7 @@ GltfParts gltf_parts(const Mesh& mesh, std::size_t stride) {
       {"accessors",
        {{{"bufferView", 0}, {"componentType", 5126}, {"count", mesh.points.size()}, {"type", "VEC3"}},
         {{"bufferView", 1},
-         {"componentType", 5123},
+         {"componentType", is_short ? 5123 : 5125},
          {"count", 3 * mesh.triangles.size()},
          {"type", "SCALAR"}}}},
       {"bufferViews",

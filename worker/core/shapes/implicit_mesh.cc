@@ -29,11 +29,33 @@ struct EdgeHash {
   }
 };
 
-/// The square between cube `low` (its centre) and the next cube along `axis`.
-struct Face {
-  Node low;
-  int axis;
-  friend auto operator<=>(const Face&, const Face&) = default;
+/// The square between cube `low` (its centre) and the next cube along `axis`, as a number; numbers are in the order of
+/// the centres, x first.
+using Face = std::uint64_t;
+Face face_of(const Node& low, int axis) {
+  Face face = 0;
+  for (const std::int32_t centre : low) face = face << 20 | static_cast<Face>(centre / 2);
+  return face << 2 | static_cast<Face>(axis);
+}
+std::pair<Node, std::size_t> low_and_axis(Face face) {
+  const auto centre = [&](int shift) { return static_cast<std::int32_t>(face >> shift & 0xFFFFF) * 2 + 1; };
+  return {{centre(42), centre(22), centre(2)}, static_cast<std::size_t>(face & 3)};
+}
+
+/// What belongs to nodes near one x.  Faces come in the order of x, and one touches nodes from half a cube before its
+/// centre to a cube behind it, so that what lies before is let go.
+template <class Map>
+class Slabs {
+ public:
+  Map& at(std::int32_t x) { return slabs_[static_cast<std::size_t>(x) % 4]; }
+  /// The next faces have their centres at x.
+  void advance(std::int32_t x) {
+    for (; before_ < x - 1; ++before_) at(before_).clear();
+  }
+
+ private:
+  std::array<Map, 4> slabs_;
+  std::int32_t before_ = 0;
 };
 
 class Marcher {
@@ -53,7 +75,7 @@ class Marcher {
     collect_faces({0, 0, 0}, side);
     std::sort(faces_.begin(), faces_.end());
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-    for (const Face& face : faces_) march_face(face);
+    for (const Face face : faces_) march_face(face);
     return std::move(mesh_);
   }
 
@@ -61,7 +83,7 @@ class Marcher {
   Vec3 position(const Node& n) const { return low_ + Vec3{half_ * n[0], half_ * n[1], half_ * n[2]}; }
 
   double value(const Node& n) {
-    const auto [place, is_new] = values_.try_emplace(node_key(n), 0.0);
+    const auto [place, is_new] = values_.at(n[0]).try_emplace(node_key(n), 0.0);
     if (is_new) place->second = f_(position(n));
     return place->second;
   }
@@ -73,7 +95,7 @@ class Marcher {
     }
     const Node centre{2 * first[0] + side, 2 * first[1] + side, 2 * first[2] + side};
     const double radius = 1.001 * std::sqrt(3.0) * side * half_;
-    if (std::abs(side == 1 ? value(centre) : f_(position(centre))) > radius) return;
+    if (std::abs(f_(position(centre))) > radius) return;
     if (side == 1) {
       add_faces(centre);
       return;
@@ -89,28 +111,31 @@ class Marcher {
   void add_faces(const Node& centre) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
-      if (centre[k] + 2 < 2 * cubes_[k]) faces_.push_back({centre, axis});
+      if (centre[k] + 2 < 2 * cubes_[k]) faces_.push_back(face_of(centre, axis));
       if (centre[k] >= 2) {
         Node before = centre;
         before[k] -= 2;
-        faces_.push_back({before, axis});
+        faces_.push_back(face_of(before, axis));
       }
     }
   }
 
-  void march_face(const Face& face) {
-    const auto k = static_cast<std::size_t>(face.axis), u = (k + 1) % 3, v = (k + 2) % 3;
-    Node high = face.low;
+  void march_face(Face face) {
+    const auto [low, k] = low_and_axis(face);
+    values_.advance(low[0]);
+    vertices_.advance(low[0]);
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    Node high = low;
     high[k] += 2;
     std::array<Node, 4> rim;  // counter-clockwise seen against the axis
     constexpr std::array<std::array<std::int32_t, 2>, 4> kCorner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
     for (std::size_t i = 0; i < 4; ++i) {
-      rim[i] = face.low;
+      rim[i] = low;
       rim[i][k] += 1;
       rim[i][u] += kCorner[i][0];
       rim[i][v] += kCorner[i][1];
     }
-    for (std::size_t i = 0; i < 4; ++i) march_tetrahedron({face.low, rim[i], rim[(i + 1) % 4], high});
+    for (std::size_t i = 0; i < 4; ++i) march_tetrahedron({low, rim[i], rim[(i + 1) % 4], high});
   }
 
   /// `t` is positively oriented: det(t1 - t0, t2 - t0, t3 - t0) > 0.
@@ -150,8 +175,9 @@ class Marcher {
   }
 
   std::uint32_t edge_vertex(const Node& inner, const Node& outer) {
-    const auto [place, is_new] = vertices_.try_emplace(std::pair(node_key(inner), node_key(outer)),
-                                                       static_cast<std::uint32_t>(mesh_.points.size()));
+    const auto [place, is_new] = vertices_.at(std::min(inner[0], outer[0]))
+                                     .try_emplace(std::pair(node_key(inner), node_key(outer)),
+                                                  static_cast<std::uint32_t>(mesh_.points.size()));
     if (is_new) mesh_.points.push_back(cross_over(inner, outer));
     return place->second;
   }
@@ -169,8 +195,9 @@ class Marcher {
   Vec3 low_;
   double half_;  // half the cube's edge: the unit of the doubled coordinates
   std::array<std::int32_t, 3> cubes_{};
-  std::unordered_map<std::uint64_t, double> values_;
-  std::unordered_map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t, EdgeHash> vertices_;
+  Slabs<std::unordered_map<std::uint64_t, double>> values_;
+  Slabs<std::unordered_map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t, EdgeHash>>
+      vertices_;  // by less x
   std::vector<Face> faces_;
   Mesh mesh_;
 };

@@ -71,6 +71,16 @@ void TextRows::split_carefully(std::string_view text) {
   }
 }
 
+std::string_view TextWords::next() {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  const std::size_t begin = std::min(rest_.find_first_not_of(kBlanks), rest_.size());
+  line_ += static_cast<std::uint64_t>(std::count(rest_.data(), rest_.data() + begin, '\n'));
+  const std::size_t end = std::min(rest_.find_first_of(kBlanks, begin), rest_.size());
+  const std::string_view word = rest_.substr(begin, end - begin);
+  rest_.remove_prefix(end);
+  return word;
+}
+
 void fail_at_line(std::uint64_t line, const std::string& message) {
   throw CoreError(CoreError::Code::kBadInput, "line " + std::to_string(line) + ": " + message, line);
 }

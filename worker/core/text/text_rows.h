@@ -41,6 +41,22 @@ class TextRows {
   std::vector<std::string_view> words_;
 };
 
+/// The words of a text one after the other, however long its lines are, which take no memory.  The bytes must outlive
+/// this.
+class TextWords {
+ public:
+  /// @param line of the file that the text begins in, counted from 1.
+  explicit TextWords(std::string_view text, std::uint64_t line = 1) : rest_(text), line_(line) {}
+
+  /// The next word; empty at the end.
+  std::string_view next();
+  std::uint64_t line() const { return line_; }  ///< of the file, that the last word is in
+
+ private:
+  std::string_view rest_;
+  std::uint64_t line_;
+};
+
 /// @throws CoreError kBadInput naming the line, always.
 [[noreturn]] void fail_at_line(std::uint64_t line, const std::string& message);
 

@@ -20,6 +20,11 @@ namespace {
 constexpr double kCellsAlongTheSolid = 200;
 constexpr int kFairingRounds = 3;
 constexpr double kMaxCubes = 16777216;
+// More triangles before edges are collapsed add nothing to what is left, but take memory: a share of those wanted.
+constexpr double kTrianglesBefore = 8;
+// Triangles that a cube's edge squared of the surface gets, as measured on balls and bodies, per side of a voxel between
+// both sides, of which there are 1.5 times the surface's area on average over its slopes.
+constexpr double kTrianglesPerSide = 6;
 
 // How far the surface is at least, by blocks of voxels: a block spans its voxels and the way to the next ones, and those
 // with both sides in them hold the whole surface.
@@ -94,8 +99,7 @@ class Clearance {
 class Inside {
  public:
   Inside(const VoxelImage& image, double isovalue) : image_(image), isovalue_(isovalue) {
-    const auto [least, greatest] = std::minmax_element(image.values.begin(), image.values.end());
-    const double low = *least, high = *greatest;
+    const auto [low, high] = value_range(image);
     if (!(low <= isovalue && isovalue < high)) {
       throw CoreError(CoreError::Code::kBadInput, "has no surface at the value " + base::to_text(isovalue) +
                                                       ": its values run from " + base::to_text(low) + " to " +
@@ -108,7 +112,10 @@ class Inside {
       steepest_ = std::max({steepest_, std::abs(value - voxel(i + 1, j, k)),
                             std::abs(value - voxel(i, j + 1, k)), std::abs(value - voxel(i, j, k + 1)),
                             on_border(i, j, k) ? std::abs(value - outside_) : 0.0});
-      if ((value < isovalue_) != below_) return;
+      const bool inside = (value < isovalue_) == below_;
+      for (const double next : {voxel(i + 1, j, k), voxel(i, j + 1, k), voxel(i, j, k + 1)})
+        if (((next < isovalue_) == below_) != inside) ++sides_;
+      if (!inside) return;
       const std::array<double, 3> at{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
       for (std::size_t a = 0; a < 3; ++a)
         reach_[a] = {std::min(reach_[a].low, at[a]), std::max(reach_[a].high, at[a])};
@@ -135,6 +142,8 @@ class Inside {
   }
 
   bool below() const { return below_; }
+  // Of voxels, between both sides of the surface.
+  std::size_t sides() const { return sides_; }
   Vec3 low() const { return {reach_[0].low, reach_[1].low, reach_[2].low}; }
   Vec3 high() const { return {reach_[0].high, reach_[1].high, reach_[2].high}; }
 
@@ -159,10 +168,10 @@ class Inside {
   }
   template <class Body>
   void for_each_voxel(const Body& body) const {
-    const float* value = image_.values.data();
+    std::size_t voxel = 0;
     for (std::size_t k = 0; k < image_.size[2]; ++k)
       for (std::size_t j = 0; j < image_.size[1]; ++j)
-        for (std::size_t i = 0; i < image_.size[0]; ++i) body(i, j, k, double{*value++});
+        for (std::size_t i = 0; i < image_.size[0]; ++i) body(i, j, k, image_.value(voxel++));
   }
   bool most_of_the_border_is_above() const {
     std::int64_t above = 0;
@@ -177,11 +186,21 @@ class Inside {
   bool below_ = false;
   double outside_ = 0;
   double steepest_ = 0;
+  std::size_t sides_ = 0;
   std::array<Reach, 3> reach_;  // indices of the inner voxels
   std::shared_ptr<const Clearance> clearance_;
 };
 
 }  // namespace
+
+std::pair<double, double> value_range(const VoxelImage& image) {
+  double low = image.value(0), high = low;
+  for (std::size_t i = 1; i < image.size[0] * image.size[1] * image.size[2]; ++i) {
+    low = std::min(low, image.value(i));
+    high = std::max(high, image.value(i));
+  }
+  return {low, high};
+}
 
 Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options) {
   const Inside inside(image, options.isovalue);
@@ -189,8 +208,10 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
   found.below = inside.below();
   const Vec3 sides = inside.high() - inside.low();
   const double longest = std::max({sides.x, sides.y, sides.z}) + 1;
+  const double enough = std::sqrt(kTrianglesPerSide * static_cast<double>(inside.sides()) /
+                                  (kTrianglesBefore * static_cast<double>(options.max_triangles)));
   found.resolution =
-      options.resolution > 0 ? options.resolution : std::max(1.0, longest / kCellsAlongTheSolid);
+      options.resolution > 0 ? options.resolution : std::max({1.0, longest / kCellsAlongTheSolid, enough});
   const double margin = 1 + 1.5 * found.resolution;
   ImplicitMeshOptions cubes;
   cubes.low = inside.low() - Vec3{margin, margin, margin};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "core/mesh/mesh.h"
 #include "core/voxels/voxel_image.h"
@@ -11,7 +12,7 @@ struct IsosurfaceOptions {
   double isovalue = 0;  ///< at the surface
   double resolution =
       0;  ///< edge of the cubes that the surface is sought in, voxels; 0: a 200th of the longest
-          ///< side of the solid's box, but no less than one
+          ///< side of the solid's box, but no less than one, nor than gives eight times max_triangles
   std::size_t max_triangles = 20000;  ///< of a finer surface edges are collapsed (collapse_edges)
 };
 
@@ -20,6 +21,9 @@ struct Isosurface {
   bool below = false;     ///< whether the solid is where values are below the isovalue
   double resolution = 0;  ///< as used, voxels
 };
+
+/// The least and the greatest value.
+std::pair<double, double> value_range(const VoxelImage& image);
 
 /// The surface at which the image, interpolated linearly along each axis between the voxels' places, has a value.
 /// The solid is the side that most of the image's outermost voxels are not on; where it reaches them it ends within

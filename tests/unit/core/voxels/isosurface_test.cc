@@ -8,7 +8,9 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 
+#include "base/coding.h"
 #include "core/base/error.h"
 #include "core/shapes/body_shape.h"
 #include "core/solid/solid.h"
@@ -19,13 +21,13 @@ namespace {
 // A function of places at the voxels of a grid.
 VoxelImage sampled(const std::array<std::size_t, 3>& size, const AffineMap& place,
                    const std::function<double(const Vec3&)>& f) {
-  VoxelImage image{size, place, {}};
+  std::string values;
   for (std::size_t k = 0; k < size[2]; ++k)
     for (std::size_t j = 0; j < size[1]; ++j)
       for (std::size_t i = 0; i < size[0]; ++i)
-        image.values.push_back(static_cast<float>(
-            f(place({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}))));
-  return image;
+        base::append(values, static_cast<float>(f(place(
+                                 {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}))));
+  return {size, place, PackedNumbers(std::move(values), kNumberKind<float>)};
 }
 
 AffineMap grid(const Vec3& low, double step) {

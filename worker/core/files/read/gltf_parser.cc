@@ -1,8 +1,11 @@
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/coding.h"
@@ -18,6 +21,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t kMostValues = 400'000;
+constexpr std::string_view kBase64 = ";base64,";
 constexpr const char* kAsGlb = "; export it as .glb without compression, or as .ply or .stl";
 constexpr int kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives; below are points and lines
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // types of components, unsigned
@@ -26,9 +31,28 @@ std::string numbered(const char* what, std::size_t i) {
   return std::string(what) + " " + std::to_string(i);
 }
 
+// The JSON with the digits of every base64 text numbered: they are nearly all of the file, and the parser would hold
+// them three times.  Digits with an escape among them are left to it.
+std::string number_digits(std::string_view text, std::vector<std::string_view>& digits) {
+  std::string shorter;
+  while (true) {
+    const std::size_t found = text.find(kBase64);
+    const std::size_t begin = found == std::string_view::npos ? text.size() : found + kBase64.size();
+    shorter += text.substr(0, begin);
+    text.remove_prefix(begin);
+    if (text.empty()) return shorter;
+    const std::size_t end = text.find_first_of("\"\\");
+    if (end == std::string_view::npos || text[end] != '"') continue;
+    shorter += "#" + std::to_string(digits.size());
+    digits.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+}
+
 class Gltf {
  public:
-  Gltf(json text, std::string_view binary) : text_(std::move(text)), binary_(binary) {}
+  Gltf(json text, std::vector<std::string_view> digits, std::string_view binary)
+      : text_(std::move(text)), digits_(std::move(digits)), binary_(binary) {}
 
   ShapeFile run() {
     for (const json& needed : list(text_, "extensionsRequired")) {
@@ -43,6 +67,13 @@ class Gltf {
   }
 
  private:
+  // Where the items of an accessor stand.
+  struct View {
+    const char* data;
+    std::size_t count, stride;
+    std::size_t component;
+  };
+
   // A member that is a list; an empty one where there is none.
   static const json& list(const json& object, const char* name) {
     static const json kEmpty = json::array();
@@ -146,27 +177,25 @@ class Gltf {
       }
       const auto attributes = primitive.find("attributes");
       if (attributes == primitive.end() || !attributes->is_object()) fail_at(0, place + " has no attributes");
-      const std::vector<Vec3> points = positions(needed(*attributes, "POSITION", place), map, place);
-      add(points, indices(index(primitive, "indices"), points.size(), place), mode, determinant(map) < 0);
+      const View points = positions(needed(*attributes, "POSITION", place), place);
+      const std::optional<std::size_t> accessor = index(primitive, "indices");
+      const std::optional<View> at = accessor ? std::optional(indices(*accessor, place)) : std::nullopt;
+      add(points, at, mode, map, place);
     }
   }
 
-  void add(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& at, std::size_t mode,
-           bool mirrored) {
-    if (at.size() < 3) return;
-    const std::size_t step = mode == kTriangles ? 3 : 1;
-    for (std::size_t i = 0; i + 2 < at.size(); i += step) {
-      std::uint32_t a = at[mode == kFan ? 0 : i], b = at[i + 1], c = at[i + 2];
+  // Corner by corner as they stand in the file, so that no list of them takes memory beside it.
+  void add(const View& points, const std::optional<View>& at, std::size_t mode, const AffineMap& map,
+           const std::string& place) {
+    const bool mirrored = determinant(map) < 0;
+    const std::size_t step = mode == kTriangles ? 3 : 1, count = at ? at->count : points.count;
+    for (std::size_t i = 0; i + 2 < count; i += step) {
+      std::size_t a = mode == kFan ? 0 : i, b = i + 1, c = i + 2;
       if (mirrored != (mode == kStrip && i % 2 == 1)) std::swap(b, c);
-      for (const std::uint32_t corner : {a, b, c}) surface_.add(points[corner]);
+      for (const std::size_t corner : {a, b, c})
+        surface_.add(point(points, at ? vertex(*at, corner, points.count, place) : corner, map, place));
     }
   }
-
-  struct View {
-    const char* data;
-    std::size_t count, stride;
-    std::size_t component;
-  };
 
   // The bytes of an accessor whose items have `items` components.
   View view(std::size_t i, const char* type, std::size_t items, const std::string& place) {
@@ -190,46 +219,44 @@ class Gltf {
     return {bytes.data() + begin + first, count, stride, component};
   }
 
-  std::vector<Vec3> positions(std::size_t accessor, const AffineMap& map, const std::string& place) {
-    const View from = view(accessor, "VEC3", 3, place);
-    if (from.component != kFloat) fail_at(0, place + ": its positions are no float numbers" + kAsGlb);
-    std::vector<Vec3> points(from.count);
-    for (std::size_t i = 0; i < from.count; ++i) {
-      const auto at = [&](std::size_t k) {
-        return double{base::decode<float>(from.data + i * from.stride + 4 * k)};
-      };
-      points[i] = map({at(0), at(1), at(2)});
-      if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
-        fail_at(0, place + ", " + numbered("vertex", i) + " is not finite");
-    }
-    return points;
+  View positions(std::size_t accessor, const std::string& place) {
+    const View found = view(accessor, "VEC3", 3, place);
+    if (found.component != kFloat) fail_at(0, place + ": its positions are no float numbers" + kAsGlb);
+    return found;
+  }
+  static Vec3 point(const View& from, std::size_t i, const AffineMap& map, const std::string& place) {
+    const char* at = from.data + i * from.stride;
+    const Vec3 point =
+        map({base::decode<float>(at), base::decode<float>(at + 4), base::decode<float>(at + 8)});
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
+      fail_at(0, place + ", " + numbered("vertex", i) + " is not finite");
+    return point;
   }
 
-  std::vector<std::uint32_t> indices(std::optional<std::size_t> accessor, std::size_t points,
-                                     const std::string& place) {
-    std::vector<std::uint32_t> found;
-    if (!accessor) {
-      for (std::size_t i = 0; i < points; ++i) found.push_back(static_cast<std::uint32_t>(i));
-      return found;
-    }
-    const View from = view(*accessor, "SCALAR", 1, place);
-    if (from.component != kByte && from.component != kShort && from.component != kInt)
+  View indices(std::size_t accessor, const std::string& place) {
+    const View found = view(accessor, "SCALAR", 1, place);
+    if (found.component != kByte && found.component != kShort && found.component != kInt)
       fail_at(0, place + ": its indices are no whole numbers");
-    found.reserve(from.count);
-    for (std::size_t i = 0; i < from.count; ++i) {
-      const char* at = from.data + i * from.stride;
-      const std::uint32_t one = from.component == kByte    ? base::decode<std::uint8_t>(at)
-                                : from.component == kShort ? base::decode<std::uint16_t>(at)
-                                                           : base::decode<std::uint32_t>(at);
-      if (one >= points)
-        fail_at(0, place + " uses " + numbered("vertex", one) + " of " + std::to_string(points));
-      found.push_back(one);
-    }
     return found;
+  }
+  static std::size_t vertex(const View& from, std::size_t i, std::size_t points, const std::string& place) {
+    const char* at = from.data + i * from.stride;
+    const std::uint32_t one = from.component == kByte    ? base::decode<std::uint8_t>(at)
+                              : from.component == kShort ? base::decode<std::uint16_t>(at)
+                                                         : base::decode<std::uint32_t>(at);
+    if (one >= points)
+      fail_at(0, place + " uses " + numbered("vertex", one) + " of " + std::to_string(points));
+    return one;
+  }
+
+  std::string_view digits(std::string_view told) const {
+    std::size_t number = digits_.size();
+    if (told.starts_with('#')) std::from_chars(told.data() + 1, told.data() + told.size(), number);
+    return number < digits_.size() ? digits_[number] : told;
   }
 
   std::string_view buffer(std::size_t i) {
-    if (i < decoded_.size() && decoded_[i]) return *decoded_[i];
+    if (const auto known = decoded_.find(i); known != decoded_.end()) return known->second;
     const json& told = item(list(text_, "buffers"), i, "buffer");
     const auto uri = told.find("uri");
     if (uri == told.end()) {
@@ -238,25 +265,24 @@ class Gltf {
     }
     static const std::string kNowhere;
     const std::string& name = uri->is_string() ? uri->get_ref<const std::string&>() : kNowhere;
-    const std::size_t comma = name.find(";base64,");
+    const std::size_t comma = name.find(kBase64);
     if (!name.starts_with("data:") || comma == std::string::npos)
       fail_at(0, "has its numbers in another file, '" + name.substr(0, 60) + "'" + kAsGlb);
-    if (decoded_.size() <= i) decoded_.resize(i + 1);
-    decoded_[i] = bytes_of_base64(std::string_view(name).substr(comma + 8));
-    if (!decoded_[i]) fail_at(0, numbered("buffer", i) + " is not base64");
-    text_["buffers"][i]["uri"] = nullptr;  // it is as long as the file
-    return *decoded_[i];
+    std::optional<std::string> bytes =
+        bytes_of_base64(digits(std::string_view(name).substr(comma + kBase64.size())));
+    if (!bytes) fail_at(0, numbered("buffer", i) + " is not base64");
+    return decoded_.emplace(i, std::move(*bytes)).first->second;
   }
 
   json text_;
-  std::string_view binary_;  // the binary part of a .glb
-  std::vector<std::optional<std::string>> decoded_;
-  std::vector<bool> drawn_;  // by node
+  std::vector<std::string_view> digits_;        // see number_digits
+  std::string_view binary_;                     // the binary part of a .glb
+  std::map<std::size_t, std::string> decoded_;  // by buffer; views of them stay
+  std::vector<bool> drawn_;                     // by node
   CornerSurface surface_;
   std::uint64_t others_ = 0;  // primitives of points and lines
 };
 
-constexpr std::size_t kMostValues = 400'000;
 constexpr std::uint32_t kJsonPart = 0x4E4F534A, kBinaryPart = 0x004E4942;
 
 }  // namespace
@@ -285,9 +311,10 @@ ShapeFile parse_gltf(std::string_view bytes) {
       fail_at(0, "has more than " + std::to_string(kMostValues) + " values in its JSON" + kAsGlb);
     return true;
   };
-  json parsed = json::parse(text.begin(), text.end(), counted, false);
+  std::vector<std::string_view> digits;
+  json parsed = json::parse(number_digits(text, digits), counted, false);
   if (!parsed.is_object() || !parsed.contains("asset")) fail_at(0, "is no glTF: its JSON has no 'asset'");
-  return Gltf(std::move(parsed), binary).run();
+  return Gltf(std::move(parsed), std::move(digits), binary).run();
 }
 
 }  // namespace affskel::core

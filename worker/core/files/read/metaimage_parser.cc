@@ -1,6 +1,8 @@
 // MetaImage, see ITK's documentation of MetaIO.
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/files/read/shape_parsers.h"
@@ -17,16 +19,16 @@ bool is_metaimage(std::string_view bytes) {
 }
 
 VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
-  static const std::map<std::string, Scalar> kTypes = {{"met_char", kScalar<std::int8_t>},
-                                                       {"met_uchar", kScalar<std::uint8_t>},
-                                                       {"met_short", kScalar<std::int16_t>},
-                                                       {"met_ushort", kScalar<std::uint16_t>},
-                                                       {"met_int", kScalar<std::int32_t>},
-                                                       {"met_uint", kScalar<std::uint32_t>},
-                                                       {"met_long_long", kScalar<std::int64_t>},
-                                                       {"met_ulong_long", kScalar<std::uint64_t>},
-                                                       {"met_float", kScalar<float>},
-                                                       {"met_double", kScalar<double>}};
+  static const std::map<std::string, NumberKind> kTypes = {{"met_char", kNumberKind<std::int8_t>},
+                                                           {"met_uchar", kNumberKind<std::uint8_t>},
+                                                           {"met_short", kNumberKind<std::int16_t>},
+                                                           {"met_ushort", kNumberKind<std::uint16_t>},
+                                                           {"met_int", kNumberKind<std::int32_t>},
+                                                           {"met_uint", kNumberKind<std::uint32_t>},
+                                                           {"met_long_long", kNumberKind<std::int64_t>},
+                                                           {"met_ulong_long", kNumberKind<std::uint64_t>},
+                                                           {"met_float", kNumberKind<float>},
+                                                           {"met_double", kNumberKind<double>}};
   VoxelHeader header;
   std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
     const std::size_t sign = text.find('=');
@@ -35,18 +37,18 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
     return lower_case(without_blanks(text.substr(0, sign))) != "elementdatafile";
   });
   if (!header.has("elementdatafile")) fail_at(0, "the header does not end");
-  std::string other;
+  std::optional<std::string> other;
   if (const std::string name = header.word("elementdatafile"); lower_case(name) != "local") {
     if (header.word("headersize", "0") != "0")
       fail_at(header.line("headersize"), "skips bytes before its numbers, which is not read");
-    data = other = read_numbers_beside(name, header.line("elementdatafile"), beside);
+    other = read_numbers_beside(name, header.line("elementdatafile"), beside);
   }
   VoxelImage image;
   image.size = sizes_of(header.numbers("dimsize"), header.line("dimsize"));
   if (header.has("elementnumberofchannels") && header.word("elementnumberofchannels") != "1")
     fail_at(header.line("elementnumberofchannels"), "the image has more than one value at a place");
-  const auto scalar = kTypes.find(lower_case(header.word("elementtype")));
-  if (scalar == kTypes.end())
+  const auto kind = kTypes.find(lower_case(header.word("elementtype")));
+  if (kind == kTypes.end())
     fail_at(header.line("elementtype"), "unknown type of values '" + header.word("elementtype") + "'");
   const char* spacing_name = header.has("elementspacing") ? "elementspacing" : "elementsize";
   const auto s = header.has(spacing_name) ? header.numbers(spacing_name, 3) : std::vector<double>(3, 1);
@@ -60,11 +62,10 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
                {o[0], o[1], o[2]});
   const bool big =
       lower_case(header.word("elementbyteordermsb", header.word("binarydatabyteordermsb").c_str())) == "true";
-  const Numbers numbers{scalar->second, big};
-  if (lower_case(header.word("compresseddata")) == "true")
-    take_numbers(unpack(data), numbers, image);
-  else
-    take_numbers(data, numbers, image);
+  const std::size_t count = voxels_of(image.size);
+  if (lower_case(header.word("compresseddata")) == "true") other = unpack(other ? *other : data);
+  image.numbers = other ? numbers_of(count, std::move(*other), kind->second, big)
+                        : numbers_of(count, data, kind->second, big);
   return image;
 }
 

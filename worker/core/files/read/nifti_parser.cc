@@ -1,6 +1,5 @@
 // NIfTI-1, see nifti1.h of the NIfTI Data Format Working Group.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -30,34 +29,32 @@ class Nifti {
     VoxelImage image;
     image.size = sizes_of(sizes, 0);
     image.place = place();
-    Numbers numbers{scalar(), big_};
     if (const float slope = number<float>(112); slope != 0 && std::isfinite(slope)) {
-      numbers.scale = slope;
-      numbers.offset = number<float>(116);
+      image.scale = slope;
+      image.offset = number<float>(116);
     }
     const float begin = number<float>(108);
     if (!(begin >= kNiftiHeader && begin <= static_cast<float>(bytes_.size())))
       fail_at(0, "its numbers begin behind the file's end");
-    take_numbers(bytes_.substr(static_cast<std::size_t>(begin)), numbers, image);
+    image.numbers =
+        numbers_of(voxels_of(image.size), bytes_.substr(static_cast<std::size_t>(begin)), kind(), big_);
     return image;
   }
 
  private:
   template <class Number>
   Number number(std::size_t at) const {
-    std::array<char, sizeof(Number)> raw;
-    std::copy_n(bytes_.data() + at, sizeof(Number), raw.begin());
-    if (big_) std::reverse(raw.begin(), raw.end());
-    return base::decode<Number>(raw.data());
+    return decode_ordered<Number>(bytes_.data() + at, big_);
   }
   double at(std::size_t place) const { return number<float>(place); }
 
-  Scalar scalar() const {
-    static const std::map<int, Scalar> kTypes = {
-        {2, kScalar<std::uint8_t>},    {4, kScalar<std::int16_t>},    {8, kScalar<std::int32_t>},
-        {16, kScalar<float>},          {64, kScalar<double>},         {256, kScalar<std::int8_t>},
-        {512, kScalar<std::uint16_t>}, {768, kScalar<std::uint32_t>}, {1024, kScalar<std::int64_t>},
-        {1280, kScalar<std::uint64_t>}};
+  NumberKind kind() const {
+    static const std::map<int, NumberKind> kTypes = {
+        {2, kNumberKind<std::uint8_t>},    {4, kNumberKind<std::int16_t>},
+        {8, kNumberKind<std::int32_t>},    {16, kNumberKind<float>},
+        {64, kNumberKind<double>},         {256, kNumberKind<std::int8_t>},
+        {512, kNumberKind<std::uint16_t>}, {768, kNumberKind<std::uint32_t>},
+        {1024, kNumberKind<std::int64_t>}, {1280, kNumberKind<std::uint64_t>}};
     const auto found = kTypes.find(number<std::int16_t>(70));
     if (found == kTypes.end())
       fail_at(0, "type of values " + std::to_string(number<std::int16_t>(70)) + " is not read");

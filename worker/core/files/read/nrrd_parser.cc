@@ -1,9 +1,12 @@
 // NRRD, see teem.sourceforge.net/nrrd/format.html.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/coding.h"
 #include "core/files/read/shape_parsers.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
@@ -13,39 +16,39 @@
 namespace affskel::core {
 namespace {
 
-Scalar nrrd_scalar(const VoxelHeader& header) {
-  static const std::map<std::string, Scalar> kNames = {{"signed char", kScalar<std::int8_t>},
-                                                       {"int8", kScalar<std::int8_t>},
-                                                       {"int8_t", kScalar<std::int8_t>},
-                                                       {"uchar", kScalar<std::uint8_t>},
-                                                       {"unsigned char", kScalar<std::uint8_t>},
-                                                       {"uint8", kScalar<std::uint8_t>},
-                                                       {"uint8_t", kScalar<std::uint8_t>},
-                                                       {"short", kScalar<std::int16_t>},
-                                                       {"short int", kScalar<std::int16_t>},
-                                                       {"int16", kScalar<std::int16_t>},
-                                                       {"int16_t", kScalar<std::int16_t>},
-                                                       {"signed short", kScalar<std::int16_t>},
-                                                       {"ushort", kScalar<std::uint16_t>},
-                                                       {"unsigned short", kScalar<std::uint16_t>},
-                                                       {"uint16", kScalar<std::uint16_t>},
-                                                       {"uint16_t", kScalar<std::uint16_t>},
-                                                       {"int", kScalar<std::int32_t>},
-                                                       {"signed int", kScalar<std::int32_t>},
-                                                       {"int32", kScalar<std::int32_t>},
-                                                       {"int32_t", kScalar<std::int32_t>},
-                                                       {"uint", kScalar<std::uint32_t>},
-                                                       {"unsigned int", kScalar<std::uint32_t>},
-                                                       {"uint32", kScalar<std::uint32_t>},
-                                                       {"uint32_t", kScalar<std::uint32_t>},
-                                                       {"int64", kScalar<std::int64_t>},
-                                                       {"int64_t", kScalar<std::int64_t>},
-                                                       {"longlong", kScalar<std::int64_t>},
-                                                       {"uint64", kScalar<std::uint64_t>},
-                                                       {"uint64_t", kScalar<std::uint64_t>},
-                                                       {"ulonglong", kScalar<std::uint64_t>},
-                                                       {"float", kScalar<float>},
-                                                       {"double", kScalar<double>}};
+NumberKind nrrd_kind(const VoxelHeader& header) {
+  static const std::map<std::string, NumberKind> kNames = {{"signed char", kNumberKind<std::int8_t>},
+                                                           {"int8", kNumberKind<std::int8_t>},
+                                                           {"int8_t", kNumberKind<std::int8_t>},
+                                                           {"uchar", kNumberKind<std::uint8_t>},
+                                                           {"unsigned char", kNumberKind<std::uint8_t>},
+                                                           {"uint8", kNumberKind<std::uint8_t>},
+                                                           {"uint8_t", kNumberKind<std::uint8_t>},
+                                                           {"short", kNumberKind<std::int16_t>},
+                                                           {"short int", kNumberKind<std::int16_t>},
+                                                           {"int16", kNumberKind<std::int16_t>},
+                                                           {"int16_t", kNumberKind<std::int16_t>},
+                                                           {"signed short", kNumberKind<std::int16_t>},
+                                                           {"ushort", kNumberKind<std::uint16_t>},
+                                                           {"unsigned short", kNumberKind<std::uint16_t>},
+                                                           {"uint16", kNumberKind<std::uint16_t>},
+                                                           {"uint16_t", kNumberKind<std::uint16_t>},
+                                                           {"int", kNumberKind<std::int32_t>},
+                                                           {"signed int", kNumberKind<std::int32_t>},
+                                                           {"int32", kNumberKind<std::int32_t>},
+                                                           {"int32_t", kNumberKind<std::int32_t>},
+                                                           {"uint", kNumberKind<std::uint32_t>},
+                                                           {"unsigned int", kNumberKind<std::uint32_t>},
+                                                           {"uint32", kNumberKind<std::uint32_t>},
+                                                           {"uint32_t", kNumberKind<std::uint32_t>},
+                                                           {"int64", kNumberKind<std::int64_t>},
+                                                           {"int64_t", kNumberKind<std::int64_t>},
+                                                           {"longlong", kNumberKind<std::int64_t>},
+                                                           {"uint64", kNumberKind<std::uint64_t>},
+                                                           {"uint64_t", kNumberKind<std::uint64_t>},
+                                                           {"ulonglong", kNumberKind<std::uint64_t>},
+                                                           {"float", kNumberKind<float>},
+                                                           {"double", kNumberKind<double>}};
   const auto found = kNames.find(lower_case(header.word("type")));
   if (found == kNames.end())
     fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
@@ -80,34 +83,39 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
     header.set(text.substr(0, colon), text.substr(colon + 1), line);
     return true;
   });
-  std::string other;
+  std::optional<std::string> other;
   for (const char* name : {"data file", "datafile"})
-    if (header.has(name)) data = other = read_numbers_beside(header.word(name), header.line(name), beside);
+    if (header.has(name)) other = read_numbers_beside(header.word(name), header.line(name), beside);
   VoxelImage image;
   image.size = sizes_of(header.numbers("sizes"), header.line("sizes"));
   image.place = nrrd_place(header);
-  Numbers numbers{nrrd_scalar(header), lower_case(header.word("endian")) == "big"};
+  const std::size_t count = voxels_of(image.size);
+  const NumberKind kind = nrrd_kind(header);
+  const bool big = lower_case(header.word("endian")) == "big";
   const std::string encoding = lower_case(header.word("encoding", "raw"));
   if (header.has("line skip") || header.has("lineskip") || header.has("byte skip") || header.has("byteskip"))
     fail_at(0, "skips lines or bytes before its numbers, which is not read");
   if (encoding == "raw") {
-    take_numbers(data, numbers, image);
+    image.numbers =
+        other ? numbers_of(count, std::move(*other), kind, big) : numbers_of(count, data, kind, big);
   } else if (encoding == "gz" || encoding == "gzip") {
-    take_numbers(unpack(data), numbers, image);
+    image.numbers = numbers_of(count, unpack(other ? *other : data), kind, big);
   } else if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
-    const std::size_t count = voxels_of(image.size);
-    if (!other.empty()) fail_at(0, "has its numbers in another file as text, which is not read");
+    if (other) fail_at(0, "has its numbers in another file as text, which is not read");
     if (count > data.size())
       fail_at(0, std::to_string(count) + " voxels announced, but only " + std::to_string(data.size()) +
                      " bytes follow");
-    TextRows rows(data, static_cast<std::uint64_t>(std::count(
-                            bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(data.size()), '\n')));
-    while (rows.next())
-      for (const std::string_view word : rows.words())
-        image.values.push_back(static_cast<float>(parse_finite(word, rows.line(), "value")));
-    if (image.values.size() != count)
-      fail_at(rows.line(),
-              std::to_string(image.values.size()) + " values for " + std::to_string(count) + " voxels");
+    TextWords words(data, static_cast<std::uint64_t>(std::count(
+                              bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(data.size()), '\n')) +
+                              1);
+    std::string values;
+    values.reserve(count * sizeof(float));
+    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+      base::append(values, static_cast<float>(parse_finite(word, words.line(), "value")));
+    image.numbers = PackedNumbers(std::move(values), kNumberKind<float>);
+    if (image.numbers.size() != count)
+      fail_at(words.line(),
+              std::to_string(image.numbers.size()) + " values for " + std::to_string(count) + " voxels");
   } else {
     fail_at(header.line("encoding"), "the encoding '" + encoding + "' is not read; write raw or gzip");
   }

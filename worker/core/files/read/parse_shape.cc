@@ -96,17 +96,17 @@ std::string_view told_extension(std::string_view bytes) {
 MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) {
   const VoxelImage image = parse_voxels(bytes, options.beside);
   if (!options.isovalue) {
-    const auto [least, greatest] = std::minmax_element(image.values.begin(), image.values.end());
+    const auto [least, greatest] = value_range(image);
     throw CoreError(
         CoreError::Code::kBadInput,
         "is an image of " + std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
-            std::to_string(image.size[2]) + " voxels with values from " + base::to_text(*least) + " to " +
-            base::to_text(*greatest) + "; the isovalue, which they have at the surface, must be given");
+            std::to_string(image.size[2]) + " voxels with values from " + base::to_text(least) + " to " +
+            base::to_text(greatest) + "; the isovalue, which they have at the surface, must be given");
   }
   Isosurface surface = isosurface(image, {*options.isovalue});
   MeshFile file{"voxels", false, {}, {}};
   file.told = "the surface at " + base::to_text(*options.isovalue) + " of " +
-              std::to_string(image.values.size()) + " voxels, sought in cubes of " +
+              std::to_string(image.numbers.size()) + " voxels, sought in cubes of " +
               base::rounded(surface.resolution, 3) + " voxels; the solid is where values are " +
               (surface.below ? "below" : "above");
   file.off.mesh = std::move(surface.mesh);

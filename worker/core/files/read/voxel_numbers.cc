@@ -26,17 +26,11 @@ std::size_t voxels_of(const std::array<std::size_t, 3>& size) {
   return count;
 }
 
-void take_numbers(std::string_view bytes, const Numbers& numbers, VoxelImage& image) {
-  const std::size_t count = voxels_of(image.size);
-  if (bytes.size() / numbers.scalar.bytes < count) {
-    fail_at(0, std::to_string(count) + " voxels announced, but only " + std::to_string(bytes.size()) +
-                   " bytes follow");
+void require_bytes(std::size_t voxels, std::size_t given, std::size_t bytes_per_voxel) {
+  if (given / bytes_per_voxel < voxels) {
+    fail_at(
+        0, std::to_string(voxels) + " voxels announced, but only " + std::to_string(given) + " bytes follow");
   }
-  image.values.resize(count);
-  numbers.scalar.decode(bytes, numbers.big_endian, image.values);
-  if (numbers.scale != 1 || numbers.offset != 0)
-    for (float& value : image.values)
-      value = static_cast<float>(numbers.scale * double{value} + numbers.offset);
 }
 
 std::array<std::size_t, 3> sizes_of(const std::vector<double>& numbers, std::uint64_t line) {

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "base/coding.h"
+#include "core/base/packed_numbers.h"
 #include "core/base/vec3.h"
 #include "core/files/read/voxel_parsers.h"
 #include "core/voxels/voxel_image.h"
@@ -18,40 +18,21 @@ namespace affskel::core {
 
 inline constexpr const char* kInOneFile = "; write header and numbers into one file (.nrrd, .mha, .nii)";
 
-/// A type of values in files: their size, and how they become numbers.
-struct Scalar {
-  std::size_t bytes;
-  /// @param bytes as many as `values` need. @param swapped whether the most significant byte is first.
-  void (*decode)(std::string_view bytes, bool swapped, std::vector<float>& values);
-};
-
-template <class Number>
-void decode_values(std::string_view bytes, bool swapped, std::vector<float>& values) {
-  std::array<char, sizeof(Number)> raw;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::copy_n(bytes.data() + i * sizeof(Number), sizeof(Number), raw.begin());
-    if (swapped) std::reverse(raw.begin(), raw.end());
-    values[i] = static_cast<float>(base::decode<Number>(raw.data()));
-  }
-}
-
-template <class Number>
-inline constexpr Scalar kScalar{sizeof(Number), decode_values<Number>};
-
-/// How an image's values stand in a file.
-struct Numbers {
-  Scalar scalar = kScalar<std::uint8_t>;
-  bool big_endian = false;
-  double scale = 1, offset = 0;
-};
-
 /// The number of voxels.
 /// @throws CoreError kBadInput for an axis without any, kLimit for more than 2^30.
 std::size_t voxels_of(const std::array<std::size_t, 3>& size);
 
-/// Gives the image, whose size is set, its values.
-/// @throws CoreError kBadInput when there are too few bytes; as voxels_of.
-void take_numbers(std::string_view bytes, const Numbers& numbers, VoxelImage& image);
+/// @throws CoreError kBadInput when `given` bytes are too few for the voxels.
+void require_bytes(std::size_t voxels, std::size_t given, std::size_t bytes_per_voxel);
+
+/// The numbers of an image of `voxels`.
+/// @param bytes of them, more may follow; a view must outlive them.
+/// @throws CoreError kBadInput when there are too few.
+template <class Bytes>
+PackedNumbers numbers_of(std::size_t voxels, Bytes&& bytes, const NumberKind& kind, bool big_endian) {
+  require_bytes(voxels, bytes.size(), kind.bytes);
+  return PackedNumbers(std::forward<Bytes>(bytes), kind, big_endian);
+}
 
 /// Three sizes; more axes only where they have one item.
 /// @throws CoreError kBadInput with the line, 0 = none.

@@ -9,8 +9,8 @@ namespace affskel::core {
 namespace {
 
 void check_image(const VoxelImage& image) {
-  for (const float value : image.values)
-    if (!std::isfinite(value)) fail_at(0, "the image holds values that are not finite");
+  for (std::size_t i = 0; i < image.numbers.size(); ++i)
+    if (!std::isfinite(image.value(i))) fail_at(0, "the image holds values that are not finite");
   require_regular(image.place);
 }
 

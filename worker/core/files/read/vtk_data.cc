@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -21,19 +22,13 @@ namespace {
 
 struct Type {
   std::string_view name;
-  std::size_t size;
   bool whole;
-  double (*decoded)(const char* bytes);
+  NumberKind kind;
 };
 
 template <typename Number>
-double decoded(const char* bytes) {
-  return static_cast<double>(base::decode<Number>(bytes));
-}
-
-template <typename Number>
 constexpr Type type_of(std::string_view name) {
-  return {name, sizeof(Number), std::is_integral_v<Number>, decoded<Number>};
+  return {name, std::is_integral_v<Number>, kNumberKind<Number>};
 }
 
 constexpr std::array<Type, 10> kTypes = {type_of<std::int8_t>("Int8"),   type_of<std::uint8_t>("UInt8"),
@@ -52,7 +47,7 @@ class Decoder {
  public:
   Decoder(const VtkArray& array, const VtkEncoding& encoding) : array_(array), encoding_(encoding) {}
 
-  std::vector<double> run() const {
+  PackedNumbers run() const {
     const Type* type = find_type(array_.type);
     if (type == nullptr) fail("has the type " + quoted_excerpt(array_.type));
     if (array_.format == "ascii") return words(*type);
@@ -61,14 +56,13 @@ class Decoder {
            "), which is not read; save it without compression");
     }
     if (array_.format == "binary") {
-      const std::string bytes = from_base64(array_.text);
-      return numbers(body(bytes), *type);
+      return owned_numbers(from_base64(array_.text), *type);
     }
     if (array_.format != "appended") fail("has the format " + quoted_excerpt(array_.format));
     const std::uint64_t offset = parse_count(array_.offset, array_.line, "the offset");
     if (offset > encoding_.appended.size()) fail("begins behind the end of the file");
     const std::string_view rest = encoding_.appended.substr(offset);
-    return encoding_.base64 ? appended_base64(rest, *type) : numbers(body(rest), *type);
+    return encoding_.base64 ? appended_base64(rest, *type) : numbers_of(body(rest), *type);
   }
 
  private:
@@ -76,20 +70,16 @@ class Decoder {
     fail_at(array_.line, "array " + quoted_excerpt(array_.name) + " " + what);
   }
 
-  std::vector<double> words(const Type& type) const {
-    std::vector<double> values;
-    std::string_view text = array_.text;
-    constexpr std::string_view kBlanks = " \t\r\n";
-    for (std::size_t at = 0; (at = text.find_first_not_of(kBlanks, at)) != std::string_view::npos;) {
-      const std::size_t stop = std::min(text.find_first_of(kBlanks, at), text.size());
-      const std::string_view word = text.substr(at, stop - at);
+  PackedNumbers words(const Type& type) const {
+    std::string values;
+    TextWords text(array_.text);
+    for (std::string_view word = text.next(); !word.empty(); word = text.next()) {
       const double value = parse_number(word, array_.line, "a value");
       if (type.whole && value != std::floor(value))
         fail("holds " + quoted_excerpt(word) + ", which is not a whole number");
-      values.push_back(value);
-      at = stop;
+      base::append(values, value);
     }
-    return values;
+    return {std::move(values), kNumberKind<double>};
   }
 
   std::string from_base64(std::string_view text) const {
@@ -100,18 +90,10 @@ class Decoder {
 
   std::size_t header_size() const { return encoding_.long_headers ? 8 : 4; }
 
-  template <typename Number>
-  Number number_at(const char* bytes) const {
-    std::array<char, sizeof(Number)> raw{};
-    std::copy_n(bytes, raw.size(), raw.begin());
-    if (encoding_.big_endian) std::reverse(raw.begin(), raw.end());
-    return base::decode<Number>(raw.data());
-  }
-
   std::uint64_t announced(std::string_view bytes) const {
     if (bytes.size() < header_size()) fail("ends before its length");
-    return encoding_.long_headers ? number_at<std::uint64_t>(bytes.data())
-                                  : number_at<std::uint32_t>(bytes.data());
+    return encoding_.long_headers ? decode_ordered<std::uint64_t>(bytes.data(), encoding_.big_endian)
+                                  : decode_ordered<std::uint32_t>(bytes.data(), encoding_.big_endian);
   }
 
   // The bytes behind the header that gives their number.
@@ -124,28 +106,25 @@ class Decoder {
     return bytes.substr(header_size(), length);
   }
 
+  PackedNumbers owned_numbers(std::string&& bytes, const Type& type) const {
+    const std::size_t length = body(bytes).size();
+    bytes.resize(header_size() + length);
+    return numbers_of(std::move(bytes.erase(0, header_size())), type);
+  }
+
   // Other arrays follow without a separator: the header gives the length of this one.
-  std::vector<double> appended_base64(std::string_view text, const Type& type) const {
+  PackedNumbers appended_base64(std::string_view text, const Type& type) const {
     constexpr std::size_t kHead = 12;  // digits that hold any header
     const std::uint64_t length = announced(from_base64(text.substr(0, kHead)));
     if (length > text.size()) fail("announces " + std::to_string(length) + " bytes, more than follow");
     const std::size_t digits = (header_size() + length + 2) / 3 * 4;
-    const std::string bytes = from_base64(text.substr(0, digits));
-    return numbers(body(bytes), type);
+    return owned_numbers(from_base64(text.substr(0, digits)), type);
   }
 
-  std::vector<double> numbers(std::string_view bytes, const Type& type) const {
-    if (bytes.size() % type.size != 0) fail("has half a number at its end");
-    std::vector<double> values;
-    values.reserve(bytes.size() / type.size);
-    std::array<char, 8> raw{};
-    for (std::size_t at = 0; at < bytes.size(); at += type.size) {
-      std::copy_n(bytes.data() + at, type.size, raw.begin());
-      if (encoding_.big_endian)
-        std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(type.size));
-      values.push_back(type.decoded(raw.data()));
-    }
-    return values;
+  template <class Bytes>
+  PackedNumbers numbers_of(Bytes&& bytes, const Type& type) const {
+    if (bytes.size() % type.kind.bytes != 0) fail("has half a number at its end");
+    return {std::forward<Bytes>(bytes), type.kind, encoding_.big_endian};
   }
 
   const VtkArray& array_;
@@ -163,7 +142,7 @@ bool is_vtk_whole(std::string_view type) {
   return found != nullptr && found->whole;
 }
 
-std::vector<double> vtk_numbers(const VtkArray& array, const VtkEncoding& encoding) {
+PackedNumbers vtk_numbers(const VtkArray& array, const VtkEncoding& encoding) {
   return Decoder(array, encoding).run();
 }
 

@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "core/base/packed_numbers.h"
 
 namespace affskel::core {
 
@@ -28,8 +29,9 @@ struct VtkEncoding {
 bool is_vtk_number(std::string_view type);
 bool is_vtk_whole(std::string_view type);
 
-/// The numbers of an array, all components one point after the other.
+/// The numbers of an array, all components one point after the other; those that are appended raw are seen in the
+/// file's bytes, which must outlive them.
 /// @throws CoreError kBadInput with the line of its tag, also for compressed data, which are not read.
-std::vector<double> vtk_numbers(const VtkArray& array, const VtkEncoding& encoding);
+PackedNumbers vtk_numbers(const VtkArray& array, const VtkEncoding& encoding);
 
 }  // namespace affskel::core

@@ -38,8 +38,8 @@ class VtpReader {
  private:
   // A value takes at least a byte of the file.  More values than bytes mean that arrays share their bytes,
   // which could take any amount of memory.
-  std::vector<double> numbers(const VtkArray& array) {
-    std::vector<double> values = vtk_numbers(array, description_.encoding);
+  PackedNumbers numbers(const VtkArray& array) {
+    PackedNumbers values = vtk_numbers(array, description_.encoding);
     if (values.size() > values_left_) {
       fail_at(array.line, "array " + quoted_excerpt(array.name) +
                               " takes the file beyond one value per byte; arrays must not share their data");
@@ -62,7 +62,7 @@ class VtpReader {
   }
 
   void add_points(const VtkArray& array) {
-    const std::vector<double> xyz = numbers(array);
+    const PackedNumbers xyz = numbers(array);
     if (array.components != 3 || xyz.size() % 3 != 0)
       fail_at(array.line, "points must have three coordinates");
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
@@ -80,7 +80,7 @@ class VtpReader {
     columns_filled_ = 0;
     for (const VtkArray& array : piece.arrays["PointData"]) {
       if (!is_vtk_number(array.type)) continue;
-      const std::vector<double> values = point_values(array);
+      const PackedNumbers values = point_values(array);
       // An empty piece adds no columns: names without values could cost far more than the file is long.
       if (!(empty && known)) add_values(array, values);
     }
@@ -93,13 +93,13 @@ class VtpReader {
     }
   }
 
-  std::vector<double> point_values(const VtkArray& array) {
+  PackedNumbers point_values(const VtkArray& array) {
     const std::size_t points = file_.off.mesh.points.size() - first_point_;
     if (array.components == 0 || array.components > kMaxColumns) {
       fail_at(array.line, "array " + quoted_excerpt(array.name) + " has " + std::to_string(array.components) +
                               " components; 1 to " + std::to_string(kMaxColumns) + " are read");
     }
-    std::vector<double> values = numbers(array);
+    PackedNumbers values = numbers(array);
     if (values.size() != points * array.components) {
       fail_at(array.line, "array " + quoted_excerpt(array.name) + " has " + std::to_string(values.size()) +
                               " numbers for " + std::to_string(points) + " points of " +
@@ -108,7 +108,7 @@ class VtpReader {
     return values;
   }
 
-  void add_values(const VtkArray& array, const std::vector<double>& values) {
+  void add_values(const VtkArray& array, const PackedNumbers& values) {
     const std::vector<std::string> names = columns_of_array(array.name, array.components);
     for (std::size_t c = 0; c < names.size(); ++c) {
       PointColumn& column = column_of(names[c], array);
@@ -143,36 +143,40 @@ class VtpReader {
     return found == arrays.end() ? nullptr : &*found;
   }
 
-  std::vector<std::int64_t> whole_numbers(const std::vector<VtkArray>& arrays, const char* name) {
-    const VtkArray* found = find_array(arrays, name);
-    std::vector<std::int64_t> whole;
-    if (found == nullptr) return whole;
-    for (const double value : numbers(*found)) {
-      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value))) {
-        fail_at(found->line, std::string("the ") + name + " hold a number that is not whole");
-      }
-      whole.push_back(static_cast<std::int64_t>(value));
+  // An array of whole numbers; the place and the numbers of none are empty.
+  struct WholeNumbers {
+    const char* name;
+    std::uint64_t line = 0;
+    PackedNumbers numbers;
+
+    std::int64_t operator[](std::size_t i) const {
+      const double value = numbers[i];
+      if (!(std::abs(value) <= 0x1p52 && value == std::floor(value)))
+        fail_at(line, std::string("the ") + name + " hold a number that is not whole");
+      return static_cast<std::int64_t>(value);
     }
-    return whole;
+  };
+  WholeNumbers whole_numbers(const VtpPiece& piece, const std::vector<VtkArray>& arrays, const char* name) {
+    const VtkArray* found = find_array(arrays, name);
+    if (found == nullptr) return {name, piece.line, {}};
+    return {name, found->line, numbers(*found)};
   }
 
   // Cells of the section `Verts` are only counted.
   void read_cells(VtpPiece& piece, const std::string& section) {
     if (section == "Verts" && !piece.announced.contains(section)) return;
     const std::vector<VtkArray>& arrays = piece.arrays[section];
-    const std::vector<std::int64_t> corners = whole_numbers(arrays, "connectivity");
-    const std::vector<std::int64_t> ends = whole_numbers(arrays, "offsets");
-    check_count(piece, section, ends.size());
-    const VtkArray* array = find_array(arrays, "connectivity");
-    const std::uint64_t line = array == nullptr ? piece.line : array->line;
-    check_ends(ends, corners.size(), section, line);
+    const WholeNumbers corners = whole_numbers(piece, arrays, "connectivity"),
+                       ends = whole_numbers(piece, arrays, "offsets");
+    check_count(piece, section, ends.numbers.size());
+    check_ends(ends, corners, section);
     if (section == "Verts") return;
     std::vector<std::int64_t> cell;
-    for (std::size_t i = 0, begin = 0; i < ends.size(); ++i) {
+    for (std::size_t i = 0, begin = 0; i < ends.numbers.size(); ++i) {
       const auto end = static_cast<std::size_t>(ends[i]);
       cell.clear();
       for (; begin < end; ++begin) cell.push_back(vertex(corners[begin]));
-      add_cell(section, cell, i, line);
+      add_cell(section, cell, i, corners.line);
     }
   }
 
@@ -191,14 +195,17 @@ class VtpReader {
                : corner + first;
   }
 
-  static void check_ends(const std::vector<std::int64_t>& ends, std::size_t corners,
-                         const std::string& section, std::uint64_t line) {
+  static void check_ends(const WholeNumbers& ends, const WholeNumbers& corners, const std::string& section) {
     std::int64_t last = 0;
     bool fit = true;
-    for (const std::int64_t end : ends) fit = std::exchange(last, end) <= end && fit;
-    if (!fit || last != static_cast<std::int64_t>(corners)) {
-      fail_at(line, "the offsets of " + section + " do not fit their connectivity of " +
-                        std::to_string(corners) + " corners");
+    for (std::size_t i = 0; i < ends.numbers.size(); ++i) {
+      const std::int64_t end = ends[i];
+      fit = fit && last <= end;
+      last = end;
+    }
+    if (!fit || last != static_cast<std::int64_t>(corners.numbers.size())) {
+      fail_at(corners.line, "the offsets of " + section + " do not fit their connectivity of " +
+                                std::to_string(corners.numbers.size()) + " corners");
     }
   }
 

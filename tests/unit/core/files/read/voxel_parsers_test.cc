@@ -22,9 +22,9 @@ constexpr std::array<std::size_t, 3> kSize{3, 4, 2};
 
 void expect_image(const VoxelImage& image, double mirrored = 1, double scale = 1, double offset = 0) {
   EXPECT_EQ(image.size, kSize);
-  ASSERT_EQ(image.values.size(), 24U);
-  for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(image.values[i], scale * double{grey_values()[i]} + offset);
-  EXPECT_EQ(image.at(1, 2, 1), image.values[1 + 3 * 2 + 12]);
+  ASSERT_EQ(image.numbers.size(), 24U);
+  for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(image.value(i), scale * double{grey_values()[i]} + offset);
+  EXPECT_EQ(image.at(1, 2, 1), image.value(1 + 3 * 2 + 12));
   // Two along y, three along x, four against z.
   EXPECT_LT(norm(image.place({1, 2, 1}) - Vec3{10 + mirrored * 6, 22, 26}), 1e-5);
 }
