@@ -1,9 +1,11 @@
 #include "core/repair/fill_holes.h"
 
 #include <CGAL/Polygon_mesh_processing/border.h>
+#include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/repair/orient_soup.h"
@@ -72,6 +74,16 @@ double area_of(const SurfaceMesh& surface, const std::vector<Face>& faces) {
   return area;
 }
 
+// Of the cone from `top`; of cones on surfaces with the same rim the difference is the volume between them.
+double cone_volume(const SurfaceMesh& surface, const std::vector<Face>& faces, const Vec3& top) {
+  double volume = 0;
+  for (const Face face : faces) {
+    const std::vector<Vec3> p = points_of(surface, surface.halfedge(face));
+    volume += dot(p[0] - top, cross(p[1] - top, p[2] - top)) / 6;
+  }
+  return volume;
+}
+
 // Leaves CGAL's search for a triangulation, which takes seconds for thousands of edges, when the context asks to stop.
 struct StopVisitor : PMP::Hole_filling::Default_visitor {
   ExecutionContext* context;
@@ -80,8 +92,20 @@ struct StopVisitor : PMP::Hole_filling::Default_visitor {
   void quadratic_step() const { throw_if_stopped(context); }
   void cubic_step() const { throw_if_stopped(context); }
   void start_refine_phase() const { throw_if_stopped(context); }
-  void start_fair_phase() const { throw_if_stopped(context); }
 };
+
+// Bends the faces as their rim does; returns the volume between them and a soap film.
+double fair(SurfaceMesh& surface, const std::vector<SurfaceMesh::Vertex_index>& vertices,
+            const std::vector<Face>& faces, const Vec3& centre, ExecutionContext* context) {
+  std::vector<Point> refined;
+  for (const auto vertex : vertices) refined.push_back(surface.point(vertex));
+  PMP::fair(surface, vertices, CGAL::parameters::fairing_continuity(0));
+  const double film = cone_volume(surface, faces, centre);
+  for (std::size_t i = 0; i < vertices.size(); ++i) surface.point(vertices[i]) = refined[i];
+  throw_if_stopped(context);
+  PMP::fair(surface, vertices, CGAL::parameters::fairing_continuity(2));
+  return std::fabs(cone_volume(surface, faces, centre) - film);
+}
 
 void fill(SurfaceMesh& surface, Loop& loop, ExecutionContext* context) {
   std::vector<Face> faces;
@@ -91,8 +115,9 @@ void fill(SurfaceMesh& surface, Loop& loop, ExecutionContext* context) {
     PMP::triangulate_hole(surface, loop.edge, std::back_inserter(faces), how);
   } else {
     std::vector<SurfaceMesh::Vertex_index> vertices;
-    PMP::triangulate_refine_and_fair_hole(surface, loop.edge, std::back_inserter(faces),
-                                          std::back_inserter(vertices), how.fairing_continuity(2));
+    PMP::triangulate_and_refine_hole(surface, loop.edge, std::back_inserter(faces),
+                                     std::back_inserter(vertices), how);
+    loop.hole.bulge = fair(surface, vertices, faces, loop.hole.centre, context);
   }
   loop.hole.filled = !faces.empty();
   loop.hole.area = area_of(surface, faces);

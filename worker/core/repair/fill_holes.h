@@ -20,7 +20,8 @@ struct Hole {
   Vec3 centre;              ///< of its points
   std::uint32_t point = 0;  ///< one of them
   bool filled = false;
-  double area = 0;  ///< of what fills it, mesh units squared
+  double area = 0;   ///< of what fills it, mesh units squared
+  double bulge = 0;  ///< volume between it and a soap film in the same rim, mesh units cubed
 };
 
 struct FilledHoles {

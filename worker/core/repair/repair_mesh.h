@@ -26,7 +26,7 @@ struct RepairOptions {
 struct RepairStep {
   std::string
       code;  ///< stable: "welded-points", "unused-points", "degenerate-triangles", "repeated-triangles", "t-junctions",
-  ///< "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "flaps", "turned-out",
+  ///< "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "bent-fillings", "flaps", "turned-out",
   ///< "wrapped"
   std::uint64_t count = 0;
   std::string message;  ///< with counts, lengths and places
@@ -39,6 +39,7 @@ struct RepairedMesh {
   double longest_filled = 0;  ///< length round the longest hole that was filled, mesh units
   double longest_left = 0;    ///< length round the longest hole that is left, mesh units; 0: no length helps
   double volume = 0;          ///< mesh units cubed; 0 where something is left
+  double bulge = 0;           ///< volume between what fills holes and soap films in them, mesh units cubed
   std::string left;           ///< what it still lacks, with what would help; empty: nothing
 };
 

@@ -92,6 +92,16 @@ TEST(RepairMesh, FillsRoundHolesRound) {
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(ball), 1, 0.002);
 }
 
+// A soap film in a ball's hole is plane, and lacks the cap.
+TEST(RepairMesh, TellsHowMuchFillingsHoldBeyondFilms) {
+  const Mesh ball = make_sphere(10, 5120), open = cut(ball, {0, 0, 10}, 6);
+  const RepairedMesh repaired = repair_mesh(open, {.longest_hole = 50});
+  const double height = (surface_area(ball) - surface_area(open)) / (2 * M_PI * 10);
+  EXPECT_NEAR(repaired.bulge / (M_PI * height * height * (10 - height / 3)), 1, 0.1);
+  ASSERT_NE(step(repaired, "bent-fillings"), nullptr);
+  EXPECT_EQ(step(repair_mesh(cut(ball, {0, 0, 10}, 2), {.longest_hole = 50}), "bent-fillings"), nullptr);
+}
+
 TEST(RepairMesh, BodiesWithManyHolesKeepTheirVolume) {
   const Mesh body = make_body({.triangles = 5000});
   for (const std::uint64_t seed : {1, 2, 3}) {
