@@ -109,9 +109,11 @@ void replace_upload(WebCall& call, std::string_view text) {
 }
 
 // How an upload is read.
-core::MeshFileOptions reading_of(const WebCall& call) {
-  if (call.request.parameter("isovalue").empty()) return {};
-  return {number_of(call.request, "isovalue")};
+core::MeshFileOptions reading_of(const WebCall& call, core::ExecutionContext& context) {
+  core::MeshFileOptions reading;
+  reading.context = &context;
+  if (!call.request.parameter("isovalue").empty()) reading.isovalue = number_of(call.request, "isovalue");
+  return reading;
 }
 
 struct WebSource {
@@ -142,7 +144,8 @@ WebSource replace_by_repaired(WebCall& call, const std::string& name, InputFile&
 // Made on request: most users look at the picture.
 http::Response turn_mesh(WebCall& call) {
   const std::string name = upload_name(call.request);
-  const InputFile input = read_input(call.upload->path().string(), reading_of(call));
+  UntilGone context(call.request.gone);
+  const InputFile input = read_input(call.upload->path().string(), reading_of(call, context));
   if (input.off.mesh.triangles.size() > kMaxTurned)
     throw ClientError(ExitCode::kLimit,
                       "meshes of up to " + std::to_string(kMaxTurned) + " triangles can be turned");
@@ -157,7 +160,7 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
   WebSource source;
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   try {
-    input = read_input(call.upload->path().string(), reading_of(call));
+    input = read_input(call.upload->path().string(), reading_of(call, context));
     if (!input.told.empty()) {
       steps.push_back({{"severity", "note"}, {"code", "isosurface"}, {"message", input.told}});
       replace_upload(call, OffText(input).view());
@@ -202,7 +205,7 @@ http::Response take_mesh(WebCall& call) {
   } catch (const std::exception&) {
     if (!context.met_limit()) throw;
     throw ClientError(ExitCode::kLimit,
-                      "mending and checking it takes more than " +
+                      "reading, mending and checking it takes more than " +
                           std::to_string(std::chrono::ceil<std::chrono::seconds>(limit).count()) +
                           " s of processor time (--repair-limit of affskel-client web)");
   }

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "core/base/error.h"
@@ -66,10 +67,11 @@ class FaceCountStop {
 /// for collapses that must not be.
 class Placement {
  public:
-  explicit Placement(std::size_t faces) : faces_(faces) {}
+  Placement(std::size_t faces, StopCheck& stop) : faces_(faces), stop_(&stop) {}
 
   template <typename Profile>
   boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
+    stop_->did(kOperations);
     const SurfaceMesh& mesh = profile.surface_mesh();
     const bool border_edge = mesh.is_border(profile.v0_v1()) || mesh.is_border(profile.v1_v0());
     if (mesh.number_of_faces() < faces_ + (border_edge ? 1 : 2)) return boost::none;  // fewer than asked for
@@ -103,17 +105,21 @@ class Placement {
 
   using Optimal = simplification::LindstromTurk_placement<SurfaceMesh>;
 
+  static constexpr std::uint64_t kOperations = 1000;  // of a placement, some nanoseconds each
+
   std::size_t faces_;
+  StopCheck* stop_;
   simplification::Bounded_normal_change_placement<Optimal> bounded_{Optimal()};
 };
 
 }  // namespace
 
-Mesh collapse_edges(const Mesh& mesh, std::size_t triangles) {
+Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context) {
+  StopCheck stop(context);
   SurfaceMesh surface = to_cgal(mesh);
   simplification::edge_collapse(surface, FaceCountStop(triangles),
                                 CGAL::parameters::get_cost(simplification::LindstromTurk_cost<SurfaceMesh>())
-                                    .get_placement(Placement(triangles)));
+                                    .get_placement(Placement(triangles, stop)));
   return from_cgal(surface);
 }
 

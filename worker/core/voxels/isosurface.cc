@@ -20,6 +20,7 @@ namespace {
 constexpr double kCellsAlongTheSolid = 200;
 constexpr int kFairingRounds = 3;
 constexpr double kMaxCubes = 16777216;
+constexpr std::uint64_t kOperations = 20;  // to find a value between voxels, some nanoseconds each
 // More triangles before edges are collapsed add nothing to what is left, but take memory: a share of those wanted.
 constexpr double kTrianglesBefore = 8;
 // Triangles that a cube's edge squared of the surface gets, as measured on balls and bodies, per side of a voxel between
@@ -220,13 +221,18 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
   const Vec3 box = cubes.high - cubes.low;
   if (box.x / cubes.spacing * (box.y / cubes.spacing) * (box.z / cubes.spacing) > kMaxCubes)
     throw CoreError(CoreError::Code::kLimit, "the resolution is too fine for so large an image");
-  found.mesh = mesh_zero_set(inside, cubes);
-  fair_onto(inside, 0.25 * found.resolution, kFairingRounds, found.mesh, found.resolution);
+  StopCheck stop(options.context);
+  const ImplicitFunction asked = [&](const Vec3& p) {
+    stop.did(kOperations);
+    return inside(p);
+  };
+  found.mesh = mesh_zero_set(asked, cubes);
+  fair_onto(asked, 0.25 * found.resolution, kFairingRounds, found.mesh, found.resolution);
   if (found.mesh.triangles.size() > options.max_triangles) {
     // collapse_edges works on meshes in x > 0.
     const Vec3 shift{1 - cubes.low.x, 0, 0};
     for (Vec3& p : found.mesh.points) p = p + shift;
-    found.mesh = collapse_edges(found.mesh, options.max_triangles);
+    found.mesh = collapse_edges(found.mesh, options.max_triangles, options.context);
     for (Vec3& p : found.mesh.points) p = p - shift;
   }
   for (Vec3& p : found.mesh.points) p = image.place(p);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 #include "core/voxels/voxel_image.h"
 
@@ -13,7 +14,8 @@ struct IsosurfaceOptions {
   double resolution =
       0;  ///< edge of the cubes that the surface is sought in, voxels; 0: a 200th of the longest
           ///< side of the solid's box, but no less than one, nor than gives eight times max_triangles
-  std::size_t max_triangles = 20000;  ///< of a finer surface edges are collapsed (collapse_edges)
+  std::size_t max_triangles = 20000;    ///< of a finer surface edges are collapsed (collapse_edges)
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 struct Isosurface {
@@ -29,7 +31,7 @@ std::pair<double, double> value_range(const VoxelImage& image);
 /// The solid is the side that most of the image's outermost voxels are not on; where it reaches them it ends within
 /// a voxel behind.  Vertices are moved onto the surface and along it to even triangles (mesh_zero_set, fair_onto).
 /// @throws CoreError kBadInput when the image has no such value, or one side has no voxel, kLimit for more than 2^24
-///   cubes.
+///   cubes, kCancelled.
 Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options);
 
 }  // namespace affskel::core

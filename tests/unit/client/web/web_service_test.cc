@@ -164,7 +164,7 @@ TEST_F(WebServiceTest, SaysThatMendingMetItsTime) {
   EXPECT_EQ(refused.status, 507);
   EXPECT_EQ(
       refused.error(),
-      "mending and checking it takes more than 1 s of processor time (--repair-limit of affskel-client web)");
+      "reading, mending and checking it takes more than 1 s of processor time (--repair-limit of affskel-client web)");
 }
 
 // An image of voxels is asked for the value at its surface, and is a mesh from then on.

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/shapes/body_shape.h"
 #include "core/solid/solid.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -108,6 +109,13 @@ TEST(Isosurface, OfABodyIsTheBodyAtFewerTriangles) {
   const Solid whole = make_solid(fine.mesh), fewer = make_solid(coarse.mesh);
   EXPECT_NEAR(fewer.volume / whole.volume, 1, 0.002);
   for (const Vec3& p : coarse.mesh.points) EXPECT_LT(std::abs(body_function(p)), 20);
+}
+
+TEST(Isosurface, StopsWhenAsked) {
+  const VoxelImage image = sampled({31, 31, 31}, grid({-12, -17, -14}, 1), ball);
+  expect_stops_wherever_it_is_asked(40, [&](ExecutionContext* context) {
+    isosurface(image, {.isovalue = 0, .max_triangles = 1000, .context = context});
+  });
 }
 
 TEST(Isosurface, SaysThatThereIsNoSuchValue) {

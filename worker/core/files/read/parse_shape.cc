@@ -103,7 +103,7 @@ MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) 
             std::to_string(image.size[2]) + " voxels with values from " + base::to_text(least) + " to " +
             base::to_text(greatest) + "; the isovalue, which they have at the surface, must be given");
   }
-  Isosurface surface = isosurface(image, {*options.isovalue});
+  Isosurface surface = isosurface(image, {.isovalue = *options.isovalue, .context = options.context});
   MeshFile file{"voxels", false, {}, {}};
   file.told = "the surface at " + base::to_text(*options.isovalue) + " of " +
               std::to_string(image.numbers.size()) + " voxels, sought in cubes of " +

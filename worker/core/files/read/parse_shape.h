@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/execution_context.h"
 #include "core/files/read/voxel_parsers.h"
 #include "core/files/shape_file.h"
 
@@ -31,8 +32,9 @@ namespace affskel::core {
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes);
 
 struct MeshFileOptions {
-  std::optional<double> isovalue;  ///< of an image of voxels: at its surface, see isosurface
-  ReadBeside beside = {};          ///< of an image of voxels whose numbers are in another file
+  std::optional<double> isovalue;       ///< of an image of voxels: at its surface, see isosurface
+  ReadBeside beside = {};               ///< of an image of voxels whose numbers are in another file
+  ExecutionContext* context = nullptr;  ///< asked whether to stop while the surface of an image is sought
 };
 
 /// A mesh that was read from a file.
