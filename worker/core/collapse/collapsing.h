@@ -35,7 +35,10 @@ class Collapsing {
   /// Of some, closed under taking boundaries.
   Collapsing(const DualComplex& complex, const CellSet& cells, ExecutionContext* context)
       : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
-    cells.for_each([&](Cell cell) { put(cell); });
+    cells.for_each([&](Cell cell) {
+      state_[cell] |= kThere;
+      complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+    });
   }
 
   bool has(Cell cell) const { return (state_[cell] & kThere) != 0; }
@@ -84,11 +87,6 @@ class Collapsing {
 
  private:
   static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20;
-
-  void put(Cell cell) {
-    state_[cell] |= kThere;
-    complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
-  }
 
   Cell coface_of(Cell cell) const {
     return complex_.find_coface(cell, [&](Cell coface) { return has(coface); });
