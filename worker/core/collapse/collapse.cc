@@ -34,9 +34,8 @@ class Order {
     }
     return std::max(0.0, farthest_ - sum / count);
   }
-  double rank(Cell cell, Cell coface) const {
-    const auto way = [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); };
-    return -value_at(complex_, cell, way) - value_at(complex_, coface, way);
+  double level(Cell cell) const {
+    return -value_at(complex_, cell, [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); });
   }
   void removed(Cell, Cell, double) {}
   void bared(Cell, double) {}

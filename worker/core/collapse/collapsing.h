@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -28,7 +27,7 @@ class Collapsing {
       : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
     StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
-      put(cell);
+      state_[cell] = static_cast<std::uint8_t>(kThere | complex.cofaces(cell).count);
       stop.did(20);
     });
   }
@@ -36,7 +35,10 @@ class Collapsing {
   /// Of some, closed under taking boundaries.
   Collapsing(const DualComplex& complex, const CellSet& cells, ExecutionContext* context)
       : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
-    cells.for_each([&](Cell cell) { put(cell); });
+    cells.for_each([&](Cell cell) {
+      state_[cell] |= kThere;
+      complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+    });
   }
 
   bool has(Cell cell) const { return (state_[cell] & kThere) != 0; }
@@ -55,7 +57,7 @@ class Collapsing {
   bool is_free(Cell cell) const { return state_[cell] == (kThere | 1); }
 
   /// How many cofaces a cell has.
-  std::uint32_t cofaces(Cell cell) const { return state_[cell] & static_cast<std::uint8_t>(kFixed - 1); }
+  std::uint32_t cofaces(Cell cell) const { return state_[cell] & static_cast<std::uint8_t>(kClaimed - 1); }
 
   CellSet cells() const {
     CellSet result(complex_);
@@ -66,9 +68,10 @@ class Collapsing {
 
   /// Collapses as far as it goes, beginning with what is free now.
   /// @param rules  time(coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time,
-  ///   those of one time in waves, each what the one before has freed, least rank(cell, coface) first, so that with
-  ///   ranks that know no order of axes a mirror image is collapsed to the mirror image;
-  ///   removed(cell, coface, now); bared(cell, now): the last coface of a cell that stays was removed.
+  ///   those of one time in waves, each what the one before has freed, and of cells with one coface the one of
+  ///   the least level(cell), so that with levels that know no order of axes a mirror image is collapsed to the
+  ///   mirror image;
+  ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was removed.
   template <class Rules>
   void run(Rules& rules) {
     for (Cell cell = 0; cell < state_.size(); ++cell) offer(cell, 0, rules);
@@ -83,18 +86,7 @@ class Collapsing {
   }
 
  private:
-  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40;
-
-  struct Pair {
-    double rank = 0;
-    Cell cell = 0, coface = 0;
-    auto operator<=>(const Pair&) const = default;
-  };
-
-  void put(Cell cell) {
-    state_[cell] |= kThere;
-    complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
-  }
+  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20;
 
   Cell coface_of(Cell cell) const {
     return complex_.find_coface(cell, [&](Cell coface) { return has(coface); });
@@ -107,40 +99,57 @@ class Collapsing {
     queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), {cell, coface});
   }
 
+  // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two
+  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
-    std::vector<Pair> wave;
-    for (std::vector<std::pair<Cell, Cell>> offered; queue_.pop_all(offered);) {
+    std::vector<Cell> contested;
+    std::vector<std::pair<Cell, Cell>> rivals;  // coface first
+    for (std::vector<std::pair<Cell, Cell>> wave; queue_.pop_all(wave);) {
       const double now = static_cast<double>(queue_.current()) * kStep;
-      wave.clear();
-      for (const auto& [cell, coface] : offered)
-        if (is_free(cell)) wave.push_back({rules.rank(cell, coface), cell, coface});
-      std::sort(wave.begin(), wave.end());
-      for (const Pair& pair : wave) {
+      std::erase_if(wave, [&](const auto& pair) { return !is_free(pair.first); });
+      contested.clear();
+      for (const auto& [cell, coface] : wave) {
+        if ((state_[coface] & kClaimed) != 0) contested.push_back(coface);
+        state_[coface] |= kClaimed;
+      }
+      for (const Cell coface : contested) state_[coface] &= static_cast<std::uint8_t>(~kClaimed);
+      rivals.clear();
+      for (const auto& [cell, coface] : wave) {
         stop.did(100);
-        if (is_free(pair.cell)) remove(pair, now, rules);
+        if ((state_[coface] & kClaimed) != 0)
+          remove(cell, coface, now, rules);
+        else
+          rivals.emplace_back(coface, cell);
+      }
+      std::sort(rivals.begin(), rivals.end());
+      for (auto first = rivals.begin(), last = first; first != rivals.end(); first = last) {
+        std::pair lowest(rules.level(first->second), first->second);
+        for (last = first + 1; last != rivals.end() && last->first == first->first; ++last)
+          lowest = std::min(lowest, std::pair(rules.level(last->second), last->second));
+        remove(lowest.second, first->first, now, rules);
       }
     }
   }
 
   template <class Rules>
-  void remove(const Pair& pair, double now, Rules& rules) {
-    state_[pair.cell] = state_[pair.coface] = 0;
-    rules.removed(pair.cell, pair.coface, now);
+  void remove(Cell cell, Cell coface, double now, Rules& rules) {
+    state_[cell] = state_[coface] = 0;
+    rules.removed(cell, coface, now);
     const auto lost = [&](Cell face) {
       if (((--state_[face]) & ~kFixed) == kThere) rules.bared(face, now);
       offer(face, now, rules);
     };
-    complex_.for_each_face(pair.coface, [&](Cell face) {
-      if (face != pair.cell) lost(face);
+    complex_.for_each_face(coface, [&](Cell face) {
+      if (face != cell) lost(face);
     });
-    complex_.for_each_face(pair.cell, lost);
+    complex_.for_each_face(cell, lost);
   }
 
   const DualComplex& complex_;
   ExecutionContext* context_;
-  std::vector<std::uint8_t> state_;  // by a cell's name: kThere, kFixed, and how many cofaces it has
+  std::vector<std::uint8_t> state_;  // by a cell's name: these, and how many cofaces it has
   BucketQueue<std::pair<Cell, Cell>> queue_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "core/base/execution_context.h"
@@ -48,6 +49,8 @@ class DualComplex {
   static std::uint32_t cube_of(Cell cell) { return static_cast<std::uint32_t>(cell >> 5); }
   static std::uint32_t place_of(Cell cell) { return static_cast<std::uint32_t>(cell & 31); }
   static std::uint32_t digit(std::uint32_t place, std::size_t axis) { return kDigits[place][axis]; }
+  /// The axes (a set) on which a place lies at an end of its cube.
+  static std::uint32_t across(std::uint32_t place) { return kAcross[place]; }
   static int dimension(std::uint32_t place) { return kDimension[place]; }
   static int dimension(Cell cell) { return kDimension[place_of(cell)]; }
 
@@ -258,18 +261,42 @@ inline double radius_about(const DualComplex& complex, std::span<const float> ra
 template <class Value>
 double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value& value) {
   const DualComplex::Star star = complex.star(cell);
+  const std::uint32_t across = DualComplex::across(DualComplex::place_of(cell));
   double sum = 0;
   for (const auto& [cube, place] : star) {
     const double here = value(cube);
     sum += here;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t digit = DualComplex::digit(place, axis);
-      const std::uint32_t behind = digit == 1 ? DualComplex::kNone : complex.neighbour(cube, axis, 2 - digit);
+    for (std::uint32_t left = across; left != 0; left &= left - 1) {
+      const auto axis = static_cast<std::size_t>(std::countr_zero(left));
+      const std::uint32_t behind = complex.neighbour(cube, axis, 2 - DualComplex::digit(place, axis));
       if (behind != DualComplex::kNone) sum += 0.5 * (here - value(behind));
     }
   }
   return sum / static_cast<double>(star.count);
 }
+
+/// A value for each cell of one dimension, lines or points: in arrays where its name is the usual one.
+template <class Value>
+class CellValues {
+ public:
+  CellValues(const DualComplex& complex, int dimension, Value none)
+      : per_cube_(dimension == 0 ? 1 : 3), none_(none), usual_(per_cube_ * complex.cubes(), none) {}
+
+  Value& operator[](DualComplex::Cell cell) {
+    const std::uint32_t place = DualComplex::place_of(cell);
+    const std::size_t first = per_cube_ * DualComplex::cube_of(cell);
+    for (std::size_t n = 0; n < 3; ++n)
+      if (place == DualComplex::kUpperVertex - (per_cube_ == 1 ? 0 : DualComplex::kWeight[n]))
+        return usual_[first + n];
+    return others_.try_emplace(cell, none_).first->second;
+  }
+
+ private:
+  std::size_t per_cube_;
+  Value none_;
+  std::vector<Value> usual_;
+  std::unordered_map<DualComplex::Cell, Value> others_;
+};
 
 /// Cells of a complex.
 class CellSet {

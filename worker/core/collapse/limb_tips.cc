@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "core/collapse/collapsing.h"
 
@@ -24,7 +25,12 @@ class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
            double least_reach)
-      : complex_(complex), depth_(depth), height_(height), least_reach_(least_reach) {}
+      : complex_(complex), depth_(depth), least_reach_(least_reach) {
+    const double slight = 1e-3 / *std::max_element(height.begin(), height.end());
+    level_.reserve(depth.size());
+    for (std::size_t cube = 0; cube < depth.size(); ++cube)
+      level_.push_back(static_cast<double>(depth[cube]) + slight * height[cube]);
+  }
 
   std::vector<LimbTip> tips() const {
     std::vector<LimbTip> result;
@@ -39,34 +45,29 @@ class Thinning {
   }
 
   // Depths before heights: a line that heights led would run to where E is great, not along its limb.
-  double rank(Cell cell, Cell coface) const {
-    const auto level = [&](std::uint32_t cube) {
-      return static_cast<double>(depth_[cube]) + slight_ * height_[cube];
-    };
-    return value_at(complex_, cell, level) + value_at(complex_, coface, level);
+  double level(Cell cell) const {
+    return value_at(complex_, cell, [&](std::uint32_t cube) { return level_[cube]; });
   }
 
   void bared(Cell cell, double now) {
-    if (DualComplex::dimension(cell) == 1) birth_.emplace(cell, now);
+    if (DualComplex::dimension(cell) == 1) birth_[cell] = static_cast<float>(now);
   }
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
   void removed(Cell vertex, Cell edge, double now) {
     if (DualComplex::dimension(edge) != 1) return;
-    const auto born = birth_.find(edge);
-    const double birth = born->second;
-    birth_.erase(born);
+    const auto birth = static_cast<double>(birth_[edge]);
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
-    const Cell end = line.go(complex_, edge, vertex);
-    const double radius = radius_at(end), fall = kSteep * line.length();
-    if (line.tip.reach < least_reach_ && radius - fall > line.rise) {
+    const Cell end = line.go(complex_, edge, vertex, now);
+    const double fall = kSteep * line.length();
+    if (line.tip.reach < least_reach_ && radius_at(end) - fall > line.rise) {
       line.tip.vertex = end;
-      line.rise = radius - fall;
+      line.rise = radius_at(end) - fall;
     }
     if (line.tip.reach < least_reach_ && birth - fall > line.lead) {
       line.tip.root = end;
-      line.tip.radius = radius;
+      line.tip.radius = radius_at(end);
       line.tip.width = birth;
       line.tip.reach = 0;
       line.tip_at = line.length();
@@ -75,7 +76,7 @@ class Thinning {
       const double way = std::min(line.length() - line.tip_at, now - birth);
       line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
     }
-    line_at_[end] = number;  // of several lines that meet there the longest is the last
+    arrive(end, number);
   }
 
  private:
@@ -90,12 +91,17 @@ class Thinning {
     double tip_at = 0;  // length before that
     double whole = 0;   // of the chords
     std::array<int, 3> chord{};
+    double time = 0;  // when it came to its end, from where, and along which edge
+    Cell from = 0, edge = 0;
 
     double length() const {
       return whole + std::sqrt(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
     }
     // Goes along an edge from one of its ends. @return the other one.
-    Cell go(const DualComplex& complex, Cell edge, Cell from) {
+    Cell go(const DualComplex& complex, Cell along, Cell vertex, double now) {
+      edge = along;
+      from = vertex;
+      time = now;
       if (length() - whole >= kChord) {
         whole = length();
         chord = {};
@@ -113,27 +119,34 @@ class Thinning {
 
   // The line whose end a vertex is, which begins there if there is none.
   std::uint32_t line_ending_at(Cell vertex, double birth) {
-    const auto known = line_at_.find(vertex);
-    if (known == line_at_.end()) {
+    const std::uint32_t number = std::exchange(line_at_[vertex], DualComplex::kNone);
+    if (number == DualComplex::kNone) {
       const double radius = radius_at(vertex);
       lines_.push_back({.tip = {vertex, vertex, radius, birth, 0}, .rise = radius, .lead = birth});
       return static_cast<std::uint32_t>(lines_.size() - 1);
     }
-    const std::uint32_t number = known->second;
-    line_at_.erase(known);
     return number;
+  }
+
+  // Of several lines that meet at a vertex the last goes on; of those that come at once the one from the highest.
+  void arrive(Cell end, std::uint32_t number) {
+    std::uint32_t& last = line_at_[end];
+    if (last == DualComplex::kNone || is_later(lines_[number], lines_[last])) last = number;
+  }
+  bool is_later(const Line& line, const Line& than) const {
+    const auto key = [&](const Line& of) { return std::pair(level(of.from) + level(of.edge), of.from); };
+    return line.time > than.time || key(line) > key(than);
   }
 
   double radius_at(Cell vertex) const { return radius_about(complex_, depth_, vertex); }
 
   const DualComplex& complex_;
   std::span<const float> depth_;
-  std::span<const double> height_;
-  double slight_ = 1e-3 / *std::max_element(height_.begin(), height_.end());
+  std::vector<double> level_;  // per cube: its depth and, slightly, its height
   double least_reach_;
   std::vector<Line> lines_;
-  std::unordered_map<Cell, double> birth_;           // of lone edges
-  std::unordered_map<Cell, std::uint32_t> line_at_;  // per vertex at the end of a line
+  CellValues<float> birth_{complex_, 1, 0};                             // of lone edges
+  CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };
 
 }  // namespace

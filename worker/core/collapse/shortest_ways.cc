@@ -27,8 +27,9 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
     const float reached = at.first;
     const std::uint32_t cube = at.second;
     if (reached > way[cube]) continue;
+    const float cost_here = cost_at(cube);
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
-      const float there = reached + 0.5F * (cost_at(cube) + cost_at(to)) * kStepLength[steps];
+      const float there = reached + 0.5F * (cost_here + cost_at(to)) * kStepLength[steps];
       if (there >= way[to]) return;
       way[to] = there;
       front.push(static_cast<std::size_t>(there * kBuckets), {there, to});

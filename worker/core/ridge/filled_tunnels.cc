@@ -23,7 +23,7 @@ using Cell = DualComplex::Cell;
 // What is free goes, in any order.
 struct AnyOrder {
   static double time(Cell, double) { return 0; }
-  static double rank(Cell, Cell) { return 0; }
+  static double level(Cell) { return 0; }
   static void removed(Cell, Cell, double) {}
   static void bared(Cell, double) {}
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/base/unit.h"
@@ -36,10 +37,14 @@ class Relaxation {
     for (changed_ = true; changed_;) {
       changed_ = false;
       const auto& runs = lattice_.axis[2].runs;
-      for (auto run = runs.begin(); run != runs.end(); ++run)
-        for (std::uint32_t n = 0; n < run->length; ++n) relax(*run, n, -1);
-      for (auto run = runs.rbegin(); run != runs.rend(); ++run)
-        for (std::uint32_t n = run->length; n-- > 0;) relax(*run, n, 1);
+      for (auto run = runs.begin(); run != runs.end(); ++run) {
+        const Rows rows = rows_beside(*run, -1);
+        for (std::uint32_t n = 0; n < run->length; ++n) relax(*run, rows, n, -1);
+      }
+      for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+        const Rows rows = rows_beside(*run, 1);
+        for (std::uint32_t n = run->length; n-- > 0;) relax(*run, rows, n, 1);
+      }
     }
     return std::move(depth_);
   }
@@ -47,24 +52,35 @@ class Relaxation {
  private:
   static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
 
-  // Looks at the 13 neighbours on one side: sign -1, those before the point in lattice order.
-  void relax(const LatticeRun& run, std::uint32_t n, std::int32_t sign) {
-    static const std::array<float, 4> kLength = {0, 1, std::sqrt(2.0F), std::sqrt(3.0F)};
-    const auto i = static_cast<std::int32_t>(run.start[0]), j = static_cast<std::int32_t>(run.start[1]),
-               k = static_cast<std::int32_t>(run.start[2] + n);
+  struct RowBeside {
+    const RowBand::Row* row = nullptr;
+    std::int32_t steps = 0;
+  };
+  using Rows = std::array<RowBeside, 5>;
+
+  // A run's own row and the four on one side: sign -1, those before it in lattice order.
+  Rows rows_beside(const LatticeRun& run, std::int32_t sign) const {
+    const auto i = static_cast<std::int32_t>(run.start[0]), j = static_cast<std::int32_t>(run.start[1]);
+    const auto at = [&](std::int32_t a, std::int32_t b) {
+      return RowBeside{&band_.row(i + sign * a, j + sign * b), a + std::abs(b)};
+    };
+    return {at(0, 0), at(0, 1), at(1, -1), at(1, 0), at(1, 1)};
+  }
+
+  // Looks at the 13 neighbours on one side.
+  void relax(const LatticeRun& run, const Rows& rows, std::uint32_t n, std::int32_t sign) {
+    static constexpr std::array<float, 4> kLength = {0, 1, std::numbers::sqrt2_v<float>,
+                                                     std::numbers::sqrt3_v<float>};
+    const auto k = static_cast<std::int32_t>(run.start[2] + n);
     float least = depth_[run.first + n];
     const float old = least;
-    for (std::int32_t a = 0; a <= 1; ++a) {
-      for (std::int32_t b = a == 0 ? 0 : -1; b <= 1; ++b) {
-        const RowBand::Row& row = band_.row(i + sign * a, j + sign * b);
-        for (std::int32_t c = a == 0 && b == 0 ? 1 : -1; c <= 1; ++c) {
-          const std::int32_t at = k + sign * c;
-          if (at < row.begin || at >= row.end) continue;
-          const std::uint32_t rank = rank_[static_cast<std::size_t>(row.offset + at)];
-          if (rank == kOutside) continue;
-          const std::int32_t steps = a + std::abs(b) + std::abs(c);
-          least = std::min(least, depth_[rank] + kLength[static_cast<std::size_t>(steps)]);
-        }
+    for (const auto& [row, steps] : rows) {
+      for (std::int32_t c = steps == 0 ? 1 : -1; c <= 1; ++c) {
+        const std::int32_t at = k + sign * c;
+        if (at < row->begin || at >= row->end) continue;
+        const std::uint32_t rank = rank_[static_cast<std::size_t>(row->offset + at)];
+        if (rank == kOutside) continue;
+        least = std::min(least, depth_[rank] + kLength[static_cast<std::size_t>(steps + std::abs(c))]);
       }
     }
     if (least == old) return;

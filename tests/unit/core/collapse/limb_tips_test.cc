@@ -9,19 +9,23 @@
 #include "core/collapse/lattice_solids.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/local_depth.h"
+#include "core/ridge/row_band.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
 namespace {
 
-// Where the tips lie, mesh coordinates.
-std::vector<Vec3> tips_of(const Mesh& mesh, double spacing) {
+// Where the tips lie, mesh coordinates.  Heights are depths, and rise along `uphill`.
+std::vector<Vec3> tips_of(const Mesh& mesh, double spacing, const Vec3& uphill = {}) {
   const LatticeSolid solid(mesh, spacing);
   const DualComplex complex(solid.lattice);
   const SamplePlaces places(solid.solid, solid.lattice);
   const std::vector<float> depth = surface_distance(solid.lattice);
-  const std::vector<double> height(depth.begin(), depth.end());
+  std::vector<double> height(depth.begin(), depth.end());
+  for_each_point(solid.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    height[rank] += 10 + dot(uphill, places.at(i, j, k));
+  });
   std::vector<Vec3> result;
   for (const LimbTip& tip : limb_tips(complex, depth, height, 1).tips) {
     const std::uint32_t cube = DualComplex::cube_of(tip.vertex);
@@ -48,6 +52,15 @@ TEST(LimbTips, AreNoneOfWhatIsNotLongerThanThick) {
     EXPECT_TRUE(tips_of(make_box(6, 3, 1), spacing).empty());
     EXPECT_TRUE(tips_of(shaken(make_box(3, 3, 0.6), 0, 5), spacing).empty());
     EXPECT_TRUE(tips_of(make_torus(2, 0.7, 1024), spacing).empty());
+  }
+}
+
+// The lines from the two corners of an end come together at once; the lattice's order does not tell which goes on.
+TEST(LimbTips, OfALathAreTheHigherCornersOfItsEnds) {
+  for (const double x : {-1, 1}) {
+    const std::vector<Vec3> tips = tips_of(make_box(2.4, 0.6, 12), 0.11, {x, 0, 0});
+    ASSERT_EQ(tips.size(), 2U);
+    for (const Vec3& tip : tips) EXPECT_GT(x * (tip.x - 1.2), 0.3) << x << ' ' << tip.z;
   }
 }
 
