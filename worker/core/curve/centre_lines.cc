@@ -152,11 +152,21 @@ class CentreLines {
     const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
     if (across == Vec3{} || !(shift.ball > 0)) return shift;
     const LimbSection section = sections_.at(at, across, kSeen * shift.ball);
-    if (!inside(section.centre)) return shift;
-    const double roundness = distance_.nearest(section.centre) / std::max(section.radius, shift.ball);
-    shift.weight = std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
+    const double away = norm(section.centre - at);
+    if (away >= shift.ball && !inside(section.centre)) return shift;
     shift.way = section.centre - at;
+    shift.weight = weight_of(section, shift.ball, away);
     return shift;
+  }
+
+  // What the middle of a section says, by how round it is.  The distance from there to the surface differs from that of
+  // the vertex, `away` from there, by as much at most, which is mostly enough to know.
+  double weight_of(const LimbSection& section, double ball, double away) const {
+    const double size = std::max(section.radius, ball);
+    if (ball - away >= kRound * size) return 1;
+    if (ball + away <= kFlat * size) return 0;
+    const double roundness = distance_.nearest(section.centre) / size;
+    return std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
   }
 
   // Each goes by the mean of what lies within a radius on either side, so that no bend is narrower.
