@@ -218,11 +218,19 @@ class CentreLines {
     const std::size_t n = from_last ? free.last - 1 : free.first;
     const Vec3& q = places_[line[n]];
     const double ball = distance_.nearest(q);
-    std::size_t far = n;
-    while (norm(places_[line[far]] - q) < 2 * kDirection * ball + input_.spacing &&
-           (from_last ? far > free.first : far + 1 < free.last))
-      far += from_last ? std::size_t(-1) : 1;
-    const Vec3 t = unit(places_[line[far]] - q);
+    const double stretch = 2 * kDirection * ball + input_.spacing;
+    const auto go_on = [&](std::size_t k) {
+      const Vec3 start = places_[line[k]];
+      while (norm(places_[line[k]] - start) < stretch && (from_last ? k > free.first : k + 1 < free.last))
+        k += from_last ? std::size_t(-1) : 1;
+      return k;
+    };
+    const std::size_t far = go_on(n), farther = go_on(far);
+    const Vec3 here = places_[line[far]] - q, there = places_[line[farther]] - places_[line[far]];
+    // It bends on towards the joint as it does from there on, as far as that is known.
+    const double gap = norm(places_[from_last ? line.back() : line.front()] - q);
+    const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
+    const Vec3 t = unit(unit(here) + bend * (unit(here) - unit(there)));
     if (t == Vec3{}) return;
     const double weight = ball * ball;
     const Vec3 to = q - dot(q, t) * t;

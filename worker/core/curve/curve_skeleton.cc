@@ -32,6 +32,7 @@ constexpr double kNearTip = 2;
 struct LimbEnds {
   std::vector<char> is_end;
   std::vector<Vec3> tip;
+  std::vector<char> has_tip;                                     // of limbs that are too short, too
   double least_reach = std::numeric_limits<double>::infinity();  // of these limbs
 };
 
@@ -42,21 +43,27 @@ std::vector<double> balls_of(const Lattice& lattice, const RidgeBasis& basis, co
   return balls;
 }
 
-// A flat limb, about as wide as long, mostly has no tip of its own.
-void add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, std::span<const char> has_tip,
-                    double least_reach, LimbEnds& ends) {
-  for (const HangingPatch& patch : hanging_patches(ridge, balls, has_tip)) {
-    if (patch.reach < least_reach) continue;
+// A flat limb, about as wide as long, mostly has no tip of its own.  Its reach is how far it leads out of the balls about
+// the lines that there are without it.
+void add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, double least_reach,
+                    const SheetLines& lines, LimbEnds& ends) {
+  for (const HangingPatch& patch : hanging_patches(ridge, balls, ends.has_tip)) {
+    const Vec3& end = ridge.vertices[patch.end].position;
+    double outside = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : lines.vertices)
+      outside = std::min(outside, norm(end - ridge.vertices[v].position) - balls[v]);
+    const double reach = outside / patch.width;
+    if (!(reach >= least_reach)) continue;
     ends.is_end[patch.end] = 1;
-    ends.tip[patch.end] = ridge.vertices[patch.end].position;
-    ends.least_reach = std::min(ends.least_reach, patch.reach);
+    ends.tip[patch.end] = end;
+    ends.least_reach = std::min(ends.least_reach, reach);
   }
 }
 
 LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
-                       std::span<const double> balls, double least_reach) {
-  LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size())};
-  std::vector<char> has_tip(ridge.vertices.size(), 0);
+                       double least_reach) {
+  LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size()),
+                std::vector<char>(ridge.vertices.size(), 0)};
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   const PointIndex index(places);
@@ -74,7 +81,7 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
                                static_cast<double>(cell[2]) + 0.5};
     const PointIndex::Found end = index.find(tip);
     if (end.distance >= (kNearTip + limb.width) * lattice.spacing) continue;
-    has_tip[end.number] = 1;
+    ends.has_tip[end.number] = 1;
     if (limb.reach < least_reach) continue;
     ends.least_reach = std::min(ends.least_reach, limb.reach);
     const Vec3 before = ridge.vertices[end.number].position;
@@ -82,7 +89,6 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
     ends.is_end[end.number] = 1;
     ends.tip[end.number] = tip;
   }
-  add_flat_limbs(ridge, balls, has_tip, least_reach, ends);
   return ends;
 }
 
@@ -219,8 +225,10 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
   const std::vector<double> balls = balls_of(lattice, basis, ridge);
-  const LimbEnds ends = ends_of_limbs(lattice, basis, ridge, balls, options.least_reach);
-  SheetLines lines = with_joints(ridge, balls, sheet_lines(ridge, ends.is_end, options.context));
+  LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
+  SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
+  add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
+  lines = with_joints(ridge, balls, sheet_lines(ridge, ends.is_end, options.context));
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});

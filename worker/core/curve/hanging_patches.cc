@@ -54,8 +54,7 @@ class Patches {
     measure();
     std::vector<HangingPatch> result;
     for (const auto& [first, patch] : patches_)
-      if (patch.lines == 1 && patch.euler == 1 && !patch.has_end && patch.width > 0)
-        result.push_back({patch.end, patch.way / patch.width});
+      if (patch.lines == 1 && patch.euler == 1 && !patch.has_end) result.push_back({patch.end, patch.width});
     return result;
   }
 

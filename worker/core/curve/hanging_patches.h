@@ -11,7 +11,7 @@ namespace affskel::core {
 /// A surface of a skeleton that hangs on the rest by one line: a flat limb, such as an ear.
 struct HangingPatch {
   std::uint32_t end = 0;  ///< the vertex that is farthest along the surface from where the line meets it
-  double reach = 0;       ///< that way, over half the limb's width
+  double width = 0;       ///< half the limb's
 };
 
 /// The surfaces without tunnels that exactly one segment of the sheet leads to, and that have no end already.  Half the width of such a limb is the

@@ -49,7 +49,7 @@ TEST(HangingPatches, EndFarthestFromTheirLine) {
   ASSERT_EQ(patches.size(), 1U);
   EXPECT_EQ(patches[0].end, kPerRow * kPerRow - 1) << "the other corner";
   // The middle is half a side from the rims, and a ball of 1 beside it.
-  EXPECT_NEAR(patches[0].reach, kSquares * std::sqrt(2) / (0.5 * kSquares + 1), 1e-9);
+  EXPECT_NEAR(patches[0].width, 0.5 * kSquares + 1, 1e-9);
 }
 
 TEST(HangingPatches, HaveNoEndNoTunnelAndOneLine) {
