@@ -19,11 +19,21 @@ double threshold_of(double given) {
 
 }  // namespace
 
-core::CurveSkeleton CurveOfField::at(double threshold) const {
+core::CurveOptions CurveOfField::options_at(double threshold) const {
   core::CurveOptions options;
   options.least_reach = threshold_of(threshold);
   options.context = field_.context();
-  return core::curve_skeleton(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_, options);
+  return options;
+}
+
+core::SheetMesh CurveOfField::lines_at(double threshold) const {
+  return core::curve_lines(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_,
+                           options_at(threshold));
+}
+
+core::CurveSkeleton CurveOfField::at(double threshold) const {
+  return core::curve_skeleton(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_,
+                              options_at(threshold));
 }
 
 v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold) const {
@@ -32,7 +42,8 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   const double next = core::next_threshold(threshold_of(threshold));
   core::Mesh other;
   if (next <= base::kMaxCurveThreshold) {
-    other = mesh_of(at(next));
+    other =
+        core::mesh_of(next <= curve.same_to ? static_cast<const core::SheetMesh&>(curve) : lines_at(next));
     options.other = &other;
     options.other_threshold = next;
   }

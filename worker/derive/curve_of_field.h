@@ -33,6 +33,8 @@ class CurveOfField {
   core::CurveGraph graph_of(const core::CurveSkeleton& curve) const;
 
  private:
+  core::CurveOptions options_at(double threshold) const;
+  core::SheetMesh lines_at(double threshold) const;
   std::vector<core::Vec3> places_of(const core::CurveSkeleton& curve) const;
 
   const FinishedField& field_;

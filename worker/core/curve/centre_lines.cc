@@ -22,6 +22,8 @@ namespace {
 constexpr int kPasses = 300, kLaterPasses = 40;
 constexpr double kStep = 0.5, kStepBack = -0.51;
 
+constexpr double kRoom =
+    0.8;  // of its ball, what a vertex has in a round: from beside the surface none comes back
 constexpr int kRounds = 5;        // sections are across lines that the last round has moved
 constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
 constexpr double kJoint = 1.5;    // balls: nearer to a joint a section has a part of the other limbs
@@ -52,15 +54,14 @@ class CentreLines {
         }) {}
 
   void run() {
-    const std::vector<Vec3> before = places_;
+    find_balls();
     make_smooth(kPasses, false);
-    keep_inside(before);
     for (int round = 0; round < kRounds; ++round) {
       throw_if_stopped(input_.context);
+      find_balls();
       to_middle();
       meet();
       make_smooth(kLaterPasses, true);
-      keep_inside(before);
     }
     for (const auto& line : lines_) find_ends(line);
   }
@@ -71,18 +72,17 @@ class CentreLines {
 
   // Ends stay where they are.
   void make_smooth(int passes, bool joints_stay) {
-    std::vector<Vec3> moved;
+    std::vector<Vec3> before;
     const auto move = [&](double step) {
-      moved = places_;
+      before = places_;
       for (std::uint32_t v = 0; v < places_.size(); ++v) {
         const auto around = neighbours_[v];
         if (around.size() < 2 || (joints_stay && around.size() > 2)) continue;
         Vec3 mean;
         for (const std::uint32_t to : around)
-          mean = mean + (1 / static_cast<double>(around.size())) * places_[to];
-        moved[v] = places_[v] + step * (mean - places_[v]);
+          mean = mean + (1 / static_cast<double>(around.size())) * before[to];
+        go(v, before[v] + step * (mean - before[v]));
       }
-      places_.swap(moved);
     };
     for (int pass = 0; pass < passes; ++pass) {
       throw_if_stopped(input_.context);
@@ -91,21 +91,26 @@ class CentreLines {
     }
   }
 
-  // What has left the solid goes back a half, a quarter ... of its way.
-  void keep_inside(const std::vector<Vec3>& before) {
-    for (std::size_t v = 0; v < places_.size(); ++v) {
-      Vec3 way = places_[v] - before[v];
-      for (int halved = 0; !inside(before[v] + way) && way != Vec3{}; ++halved)
-        way = halved < 4 ? 0.5 * way : Vec3{};
-      places_[v] = before[v] + way;
-    }
+  // The largest balls in the solid about the vertices.
+  void find_balls() {
+    home_ = places_;
+    ball_.clear();
+    for (const Vec3& at : home_) ball_.push_back(distance_.nearest(at));
+  }
+
+  // A vertex goes to a place, or as near to it as its ball reaches: what stays in a ball in the solid never leaves the
+  // solid.
+  void go(std::uint32_t v, const Vec3& to) {
+    const Vec3 way = to - home_[v];
+    const double length = norm(way), room = kRoom * ball_[v];
+    places_[v] = length <= room ? to : home_[v] + (room / length) * way;
   }
 
   // How many vertices from an end of a line lie near the joint there; 0 where none is.
   std::size_t in_joint(const std::vector<std::uint32_t>& line, bool from_last) const {
     const auto at = [&](std::size_t n) { return line[from_last ? line.size() - 1 - n : n]; };
     if (!is_joint(at(0))) return 0;
-    const double near = kJoint * distance_.nearest(places_[at(0)]);
+    const double near = kJoint * ball_[at(0)];
     std::size_t count = 1;
     while (count < line.size() && norm(places_[at(count)] - places_[at(0)]) < near) ++count;
     return count;
@@ -143,15 +148,25 @@ class CentreLines {
   Shift shift_of(const std::vector<std::uint32_t>& line, std::size_t n) const {
     const Vec3& at = places_[line[n]];
     Shift shift;
-    shift.ball = distance_.nearest(at);
+    shift.ball = ball_[line[n]];
     const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
     if (across == Vec3{} || !(shift.ball > 0)) return shift;
     const LimbSection section = sections_.at(at, across, kSeen * shift.ball);
-    if (!inside(section.centre)) return shift;
-    const double roundness = distance_.nearest(section.centre) / std::max(section.radius, shift.ball);
-    shift.weight = std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
+    const double away = norm(section.centre - at);
+    if (away >= shift.ball && !inside(section.centre)) return shift;
     shift.way = section.centre - at;
+    shift.weight = weight_of(section, shift.ball, away);
     return shift;
+  }
+
+  // What the middle of a section says, by how round it is.  The distance from there to the surface differs from that of
+  // the vertex, `away` from there, by as much at most, which is mostly enough to know.
+  double weight_of(const LimbSection& section, double ball, double away) const {
+    const double size = std::max(section.radius, ball);
+    if (ball - away >= kRound * size) return 1;
+    if (ball + away <= kFlat * size) return 0;
+    const double roundness = distance_.nearest(section.centre) / size;
+    return std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
   }
 
   // Each goes by the mean of what lies within a radius on either side, so that no bend is narrower.
@@ -173,8 +188,8 @@ class CentreLines {
         for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count)
           sum = sum + shifts[k].weight * shifts[k].way;
         while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
-        Vec3& at = places_[line[free.first + n]];
-        at = at + (1 / count) * sum;
+        const std::uint32_t v = line[free.first + n];
+        go(v, places_[v] + (1 / count) * sum);
       }
     }
   }
@@ -203,11 +218,19 @@ class CentreLines {
     const std::size_t n = from_last ? free.last - 1 : free.first;
     const Vec3& q = places_[line[n]];
     const double ball = distance_.nearest(q);
-    std::size_t far = n;
-    while (norm(places_[line[far]] - q) < 2 * kDirection * ball + input_.spacing &&
-           (from_last ? far > free.first : far + 1 < free.last))
-      far += from_last ? std::size_t(-1) : 1;
-    const Vec3 t = unit(places_[line[far]] - q);
+    const double stretch = 2 * kDirection * ball + input_.spacing;
+    const auto go_on = [&](std::size_t k) {
+      const Vec3 start = places_[line[k]];
+      while (norm(places_[line[k]] - start) < stretch && (from_last ? k > free.first : k + 1 < free.last))
+        k += from_last ? std::size_t(-1) : 1;
+      return k;
+    };
+    const std::size_t far = go_on(n), farther = go_on(far);
+    const Vec3 here = places_[line[far]] - q, there = places_[line[farther]] - places_[line[far]];
+    // It bends on towards the joint as it does from there on, as far as that is known.
+    const double gap = norm(places_[from_last ? line.back() : line.front()] - q);
+    const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
+    const Vec3 t = unit(unit(here) + bend * (unit(here) - unit(there)));
     if (t == Vec3{}) return;
     const double weight = ball * ball;
     const Vec3 to = q - dot(q, t) * t;
@@ -230,9 +253,8 @@ class CentreLines {
     }
     side = side + hold * places_[v];
     const Vec3 to = transposed_times(inverse_transposed(sum), side);
-    const Vec3 way = to - places_[v];
-    const double ball = distance_.nearest(places_[v]);
-    if (norm(way) < ball) places_[v] = to;  // else it would leave where it is known to be inside
+    // Lines that meet farther away, such as those of legs that are about parallel, do not tell where the joint is.
+    if (norm(to - places_[v]) < ball_[v]) go(v, to);
   }
 
   // From the joint to the first vertex that is free, and from joint to joint where none is.
@@ -240,7 +262,7 @@ class CentreLines {
     const auto draw = [&](std::size_t from, std::size_t to) {
       const Vec3 a = places_[line[from]], b = places_[line[to]];
       for (std::size_t n = from + 1; n < to; ++n)
-        places_[line[n]] = a + (static_cast<double>(n - from) / static_cast<double>(to - from)) * (b - a);
+        go(line[n], a + (static_cast<double>(n - from) / static_cast<double>(to - from)) * (b - a));
     };
     if (free.first >= free.last) {
       if (line.front() != line.back()) draw(0, line.size() - 1);
@@ -293,6 +315,8 @@ class CentreLines {
   const SolidMembership membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Groups<std::uint32_t> neighbours_;
+  std::vector<Vec3> home_;    // where the round has found the vertices
+  std::vector<double> ball_;  // per vertex: how far the surface is from there
 };
 
 }  // namespace

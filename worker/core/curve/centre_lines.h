@@ -24,8 +24,8 @@ struct CentreLinesInput {
 /// section across (see LimbSections).  Where limbs meet, in the largest ball about the joint, sections say nothing: the
 /// joint goes to where the lines of its limbs would meet (least squares), straight on from there.  An end goes along its
 /// line to where the distance to the surface begins to fall by more than half of the way, the centre of a round tip.
-/// No vertex leaves the solid.
-/// @param places per vertex, in the surface's coordinates.
+/// No vertex leaves the solid: each stays in a ball that does not.
+/// @param places per vertex, in the surface's coordinates, within the solid.
 /// @throws CoreError kCancelled when the context asks to stop.
 void centre_lines(const CentreLinesInput& input, std::vector<Vec3>& places);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "core/base/require.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"
+#include "core/curve/hanging_patches.h"
 #include "core/curve/joined_links.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
@@ -30,11 +32,38 @@ constexpr double kNearTip = 2;
 struct LimbEnds {
   std::vector<char> is_end;
   std::vector<Vec3> tip;
+  std::vector<char> has_tip;                                     // of limbs that are too short, too
+  double least_reach = std::numeric_limits<double>::infinity();  // of these limbs
 };
+
+std::vector<double> balls_of(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge) {
+  std::vector<double> balls;
+  for (const SheetVertex& vertex : ridge.vertices)
+    balls.push_back(lattice.spacing * static_cast<double>(basis.radius[vertex.point]));
+  return balls;
+}
+
+// A flat limb, about as wide as long, mostly has no tip of its own.  Its reach is how far it leads out of the balls about
+// the lines that there are without it.
+void add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, double least_reach,
+                    const SheetLines& lines, LimbEnds& ends) {
+  for (const HangingPatch& patch : hanging_patches(ridge, balls, ends.has_tip)) {
+    const Vec3& end = ridge.vertices[patch.end].position;
+    double outside = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t v : lines.vertices)
+      outside = std::min(outside, norm(end - ridge.vertices[v].position) - balls[v]);
+    const double reach = outside / patch.width;
+    if (!(reach >= least_reach)) continue;
+    ends.is_end[patch.end] = 1;
+    ends.tip[patch.end] = end;
+    ends.least_reach = std::min(ends.least_reach, reach);
+  }
+}
 
 LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
                        double least_reach) {
-  LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size())};
+  LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size()),
+                std::vector<char>(ridge.vertices.size(), 0)};
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   const PointIndex index(places);
@@ -45,7 +74,6 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
   std::sort(tips.begin(), tips.end());
   const std::vector<CellPlace> cells = cells_of_vertices(lattice, tips);
   for (const LimbTip& limb : limbs) {
-    if (limb.reach < least_reach) continue;
     const CellPlace& cell = cells[static_cast<std::size_t>(
         std::lower_bound(tips.begin(), tips.end(), limb.vertex) - tips.begin())];
     const Vec3 tip =
@@ -53,6 +81,9 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
                                static_cast<double>(cell[2]) + 0.5};
     const PointIndex::Found end = index.find(tip);
     if (end.distance >= (kNearTip + limb.width) * lattice.spacing) continue;
+    ends.has_tip[end.number] = 1;
+    if (limb.reach < least_reach) continue;
+    ends.least_reach = std::min(ends.least_reach, limb.reach);
     const Vec3 before = ridge.vertices[end.number].position;
     if (ends.is_end[end.number] && norm(ends.tip[end.number] - before) > end.distance) continue;
     ends.is_end[end.number] = 1;
@@ -113,15 +144,10 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
     if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
 }
 
-SheetLines with_joints(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
-                       const SheetLines& lines) {
+SheetLines with_joints(const RidgeSheet& ridge, std::span<const double> balls, const SheetLines& lines) {
   std::vector<Vec3> places;
-  std::vector<double> ball;
-  for (const SheetVertex& vertex : ridge.vertices) {
-    places.push_back(vertex.position);
-    ball.push_back(lattice.spacing * static_cast<double>(basis.radius[vertex.point]));
-  }
-  return joined_links(lines, places, ball);
+  for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
+  return joined_links(lines, places, balls);
 }
 
 // In the frame's coordinates.
@@ -188,24 +214,44 @@ void measure(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* con
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 
-}  // namespace
+// The lines in their places, and which vertices of the ridge theirs are.
+struct Drawn {
+  CurveSkeleton curve;
+  std::vector<std::uint32_t> lines;
+};
 
-CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
-                             const RidgeSheet& ridge, const CurveOptions& options) {
+Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
+            const CurveOptions& options) {
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
-  const LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
-  const SheetLines lines =
-      with_joints(lattice, basis, ridge, sheet_lines(ridge, ends.is_end, options.context));
+  const std::vector<double> balls = balls_of(lattice, basis, ridge);
+  LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
+  SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
+  add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
+  lines = with_joints(ridge, balls, sheet_lines(ridge, ends.is_end, options.context));
   CurveSkeleton curve;
+  curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
-  curve.segments = lines.segments;
+  curve.segments = std::move(lines.segments);
   for (const std::uint32_t v : lines.vertices) {
     curve.vertices.push_back(ridge.vertices[v]);
     curve.part.push_back(ridge.part[v]);
   }
-  give_points(basis, ridge, lines.vertices, curve, options.context);
   move_to_middle(solid, lattice, ends, lines.vertices, curve, options.context);
+  return {std::move(curve), std::move(lines.vertices)};
+}
+
+}  // namespace
+
+SheetMesh curve_lines(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
+                      const RidgeSheet& ridge, const CurveOptions& options) {
+  return drawn(solid, lattice, basis, ridge, options).curve;
+}
+
+CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
+                             const RidgeSheet& ridge, const CurveOptions& options) {
+  auto [curve, lines] = drawn(solid, lattice, basis, ridge, options);
+  give_points(basis, ridge, lines, curve, options.context);
   find_distances(solid, lattice, curve);
   measure(lattice, curve, options.context);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
@@ -213,7 +259,7 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   for (const Segment& segment : curve.segments)
     for (const std::uint32_t v : segment) ++degree[v];
   curve.ends = static_cast<std::uint32_t>(std::count(degree.begin(), degree.end(), 1));
-  return curve;
+  return std::move(curve);
 }
 
 }  // namespace affskel::core

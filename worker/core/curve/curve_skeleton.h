@@ -14,8 +14,8 @@
 namespace affskel::core {
 
 struct CurveOptions {
-  /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach.  Below
-  /// RidgeConstants::limb_reach nothing more comes.
+  /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach, and HangingPatch::reach of flat
+  /// ones.  Below RidgeConstants::limb_reach no more tips come.
   double least_reach = 0.9;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
@@ -36,6 +36,7 @@ struct CurveSkeleton : SheetMesh {
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone
   std::vector<Opening> opened;
+  double same_to = 0;  ///< the least reach of its limbs, infinity without: up to there all thresholds give it
 };
 
 /// The curve skeleton: the skeleton of `ridge`, collapsed on to the middle of its surfaces (see sheet_lines()),
@@ -49,5 +50,9 @@ struct CurveSkeleton : SheetMesh {
 ///   stop.
 CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
                              const RidgeSheet& ridge, const CurveOptions& options = {});
+
+/// Its lines alone, without what is measured of the solid.
+SheetMesh curve_lines(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
+                      const RidgeSheet& ridge, const CurveOptions& options = {});
 
 }  // namespace affskel::core

@@ -28,7 +28,7 @@ class Joints {
       for (const std::uint32_t v : {line.front(), line.back()}) ++degree[v];
     for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
       const std::uint32_t a = polylines_[n].front(), b = polylines_[n].back();
-      if (a != b && degree[a] > 2 && degree[b] > 2) links_.push_back({distance(a, b), n});
+      if (a != b && degree[a] > 2 && degree[b] > 2) links_.push_back({length_of(polylines_[n]), n});
     }
     std::sort(links_.begin(), links_.end());
   }
@@ -42,6 +42,18 @@ class Joints {
   const Vec3& place(std::uint32_t v) const { return places_[lines_.vertices[v]]; }
   double ball(std::uint32_t v) const { return ball_[lines_.vertices[v]]; }
   double distance(std::uint32_t a, std::uint32_t b) const { return norm(place(a) - place(b)); }
+
+  double length_of(std::span<const std::uint32_t> line) const {
+    double length = 0;
+    for (std::size_t k = 1; k < line.size(); ++k) length += distance(line[k - 1], line[k]);
+    return length;
+  }
+
+  // The line itself, not only its ends: a handle leads from a trunk's ball back into it.
+  bool lies_in_balls(std::span<const std::uint32_t> line, std::uint32_t a, std::uint32_t b) const {
+    return std::all_of(line.begin(), line.end(),
+                       [&](std::uint32_t v) { return distance(v, a) < ball(a) || distance(v, b) < ball(b); });
+  }
 
   // Whether lines would lie on each other, had b become a.
   bool would_meet(std::uint32_t which, std::uint32_t a, std::uint32_t b) const {
@@ -59,9 +71,10 @@ class Joints {
 
   void join(std::uint32_t n) {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
-    if (a == b || distance(a, b) >= std::max(ball(a), ball(b)) || would_meet(n, a, b)) return;
-    gone_[n] = 1;
     if (ball(b) > ball(a)) std::swap(a, b);
+    if (a == b || distance(a, b) >= ball(a) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
+      return;
+    gone_[n] = 1;
     std::replace(joint_.begin(), joint_.end(), b, a);
   }
 

@@ -20,6 +20,25 @@ Vec3 beside(const Vec3& a) {
   return unit(cross(a, axis));
 }
 
+// The boxes about a place that its plane goes through.
+struct CutBoxes {
+  Box round;
+  const Vec3& place;
+  const Vec3& across;
+
+  bool meets(const Box& box) const {
+    double height = 0, half = 0;  // of the box's middle above the plane, and of the box
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double part = across[static_cast<int>(k)];
+      height += part * (0.5 * (box.low[k] + box.high[k]) - place[static_cast<int>(k)]);
+      half += std::abs(part) * 0.5 * (box.high[k] - box.low[k]);
+    }
+    return std::abs(height) <= kSlack * half && round.meets(box);
+  }
+
+  static constexpr double kSlack = 1 + 1e-9;  // for rounding
+};
+
 }  // namespace
 
 LimbSections::LimbSections(const Mesh& surface) : surface_(surface), tree_(boxes_of(surface)) {
@@ -48,7 +67,7 @@ LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach
   };
   const Box round{{place.x - reach, place.y - reach, place.z - reach},
                   {place.x + reach, place.y + reach, place.z + reach}};
-  tree_.visit(round, [&](std::uint32_t t) {
+  tree_.visit(CutBoxes{round, place, across}, [&](std::uint32_t t) {
     std::array<Vec3, 3> corner;
     std::array<double, 3> height;
     for (std::size_t k = 0; k < 3; ++k) {

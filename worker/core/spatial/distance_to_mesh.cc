@@ -31,11 +31,14 @@ struct Nearer {
   }
 };
 
+// The points that triangles use.
 std::vector<Vec3> corners_of(const Mesh& mesh) {
-  std::vector<Vec3> corners;
-  corners.reserve(3 * mesh.triangles.size());
+  std::vector<char> used(mesh.points.size(), 0);
   for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) corners.push_back(mesh.points[corner]);
+    for (const std::uint32_t corner : triangle) used[corner] = 1;
+  std::vector<Vec3> corners;
+  for (std::size_t p = 0; p < used.size(); ++p)
+    if (used[p]) corners.push_back(mesh.points[p]);
   return corners;
 }
 
@@ -55,19 +58,20 @@ Vec3 nearest_place(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& 
 }
 
 DistanceToMesh::DistanceToMesh(const Mesh& mesh)
-    : mesh_(mesh), tree_(boxes_of(mesh)), corners_(corners_of(mesh)) {}
+    : mesh_(mesh), tree_(boxes_of(mesh)), corners_(corners_of(mesh)), corner_index_(corners_) {}
 
 double DistanceToMesh::nearest(const Vec3& place) const {
   return norm(nearest_place(place) - place);
 }
 
 Vec3 DistanceToMesh::nearest_place(const Vec3& place) const {
-  const PointIndex::Found corner = corners_.find(place);
-  double least = corner.distance * corner.distance * (1 + 1e-12);  // for what rounding does to the boxes' distances
+  const PointIndex::Found corner = corner_index_.find(place);
+  double least =
+      corner.distance * corner.distance * (1 + 1e-12);  // for what rounding does to the boxes' distances
   const auto at = [&](std::uint32_t triangle, std::size_t k) {
     return mesh_.points[mesh_.triangles[triangle][k]];
   };
-  Vec3 found = at(corner.number / 3, corner.number % 3);
+  Vec3 found = corners_[corner.number];
   tree_.visit(Nearer{place, least}, [&](std::uint32_t t) {
     const Vec3 here = core::nearest_place(place, at(t, 0), at(t, 1), at(t, 2));
     const double distance = square(here - place);

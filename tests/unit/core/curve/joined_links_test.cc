@@ -99,5 +99,17 @@ TEST(JoinedLinks, ALoopStays) {
   }
 }
 
+// A handle leaves a trunk and comes back to it within one ball, which a short link crosses.
+TEST(JoinedLinks, AHandleIsNoShortLink) {
+  const std::vector<Vec3> places{{0, 0, 0},     {0.8, 0, 0},   {0, 0, 2},  {0.4, 0, 3}, {0.8, 0, 2},
+                                 {0.3, 0.1, 0}, {0.5, 0.1, 0}, {0, -2, 0}, {0.8, -2, 0}};
+  SheetLines lines;
+  for (std::uint32_t v = 0; v < places.size(); ++v) lines.vertices.push_back(v);
+  lines.segments = {{0, 2}, {0, 5}, {0, 7}, {1, 4}, {1, 6}, {1, 8}, {2, 3}, {3, 4}, {5, 6}};
+  const SheetLines joined = joined_links(lines, places, std::vector<double>(places.size(), 1));
+  EXPECT_EQ(joined.vertices, (std::vector<std::uint32_t>{0, 2, 3, 4, 7, 8})) << "the link's are gone";
+  EXPECT_EQ(joined.segments.size(), joined.vertices.size()) << "one loop";
+}
+
 }  // namespace
 }  // namespace affskel::core

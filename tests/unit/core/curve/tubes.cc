@@ -41,14 +41,14 @@ Mesh tube_mesh(std::span<const Tube> tubes, double edge) {
   return mesh;
 }
 
-double volume_outside(const Tube& tube, const Tube& other) {
+double volume_where(const Tube& tube, const std::function<bool(const Vec3&)>& where) {
   const double step = tube.radius / 25;
   const Box box = box_round(tube);
   double count = 0;
   for (double x = box.low[0] + 0.3 * step; x < box.high[0]; x += step)
     for (double y = box.low[1] + 0.4 * step; y < box.high[1]; y += step)
       for (double z = box.low[2] + 0.6 * step; z < box.high[2]; z += step)
-        count += tube.contains({x, y, z}) && !other.contains({x, y, z});
+        count += tube.contains({x, y, z}) && where({x, y, z});
   return count * step * step * step;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "core/mesh/mesh.h"
@@ -18,8 +19,8 @@ struct Tube {
 /// The tubes as one solid, by marching tetrahedra of edges about `edge`.
 Mesh tube_mesh(std::span<const Tube> tubes, double edge);
 
-/// Volume of what a tube has outside another, counted on a fine lattice: a few parts in ten thousand.
-double volume_outside(const Tube& tube, const Tube& other);
+/// Volume of a tube's places where something holds, counted on a fine lattice: a few parts in ten thousand.
+double volume_where(const Tube& tube, const std::function<bool(const Vec3&)>& where);
 
 /// The place turned about two axes, so that no tube lies along the lattice.
 Vec3 turned(const Vec3& p);
