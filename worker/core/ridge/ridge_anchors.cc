@@ -239,14 +239,20 @@ class Choice {
       size = std::max(size, component.size);
     }
     result_.left_out.assign(complex_.cubes(), 0);
-    const auto is_fragment = [&](std::uint32_t cube) {
-      const Component& component = known[cube];
-      return !component.resolved && component.size < largest[evidence_.parts.of_point(cube)];
-    };
-    for (const auto& [cube, component] : known) result_.fragments += is_fragment(cube);
-    if (result_.fragments == 0) return;
+    std::map<std::uint32_t, std::int64_t> fragments;  // Euler characteristic, by component
+    for (const auto& [cube, component] : known)
+      if (!component.resolved && component.size < largest[evidence_.parts.of_point(cube)])
+        fragments[cube] = 0;
+    if (fragments.empty()) return;
+    complex_.for_each_cell([&](Cell cell) {
+      if (const auto of = fragments.find(components_.find(DualComplex::cube_of(cell))); of != fragments.end())
+        of->second += DualComplex::dimension(cell) % 2 == 0 ? 1 : -1;
+    });
+    // What has a tunnel or a void stays.
+    std::erase_if(fragments, [](const auto& fragment) { return fragment.second != 1; });
+    result_.fragments = static_cast<std::uint32_t>(fragments.size());
     for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
-      result_.left_out[cube] = is_fragment(components_.find(cube));
+      result_.left_out[cube] = fragments.contains(components_.find(cube));
   }
 
   // The square between the two sample points of the greatest E.

@@ -42,7 +42,8 @@ struct RidgeAnchors {
   std::vector<CurvePlace> curves;  ///< by vertex, each once
   std::uint32_t limbs = 0;         ///< tips among the anchors
   /// Per cube: it belongs to a fragment, a component beside a larger one of the same part of the solid, where the
-  /// lattice does not resolve it: it is nowhere three points thick.  No skeleton is wanted of it.
+  /// lattice does not resolve it: it is nowhere three points thick.  No skeleton is wanted of it, unless it has a tunnel
+  /// or a void, for these are the lattice's.
   std::vector<char> left_out;
   std::uint32_t fragments = 0;
 };
