@@ -25,7 +25,8 @@ struct WebOptions {
   bool secure = false;  ///< over TLS
   int port = 0;
   HostRule hosts;
-  std::chrono::nanoseconds repair_limit{};  ///< processor time for reading, mending and checking a mesh; 0: any
+  std::chrono::nanoseconds
+      repair_limit{};  ///< processor time for reading, mending and checking a mesh; 0: any
 };
 
 /// A file that was made for a session to fetch.

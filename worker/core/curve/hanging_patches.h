@@ -14,8 +14,9 @@ struct HangingPatch {
   double width = 0;       ///< half the limb's
 };
 
-/// The surfaces without tunnels that exactly one segment of the sheet leads to, and that have no end already.  Half the width of such a limb is the
-/// greatest distance from a rim, along the surface, and that vertex's ball beside it.  O(N log N).
+/// The surfaces without tunnels that exactly one segment of the sheet leads to, and that have no end already.  Half the
+/// width of such a limb is the greatest distance from a rim, along the surface, and that vertex's ball beside it.
+/// O(N log N).
 /// @param ball per vertex: distance to the surface of the solid.
 /// @param has_end per vertex: not 0 where a limb ends.
 /// @return by the least number of their vertices.
