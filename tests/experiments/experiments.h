@@ -60,6 +60,8 @@ void steadiness_experiment(const Setting& setting, Report& report);
 void reach_experiment(const Setting& setting, Report& report);
 /// Not published: one solid in several tessellations, and sets of directions against the infimum.
 void tessellation_experiment(const Setting& setting, Report& report);
+/// Not published: the infimum at single points against an independent search.
+void confirmation_experiment(const Setting& setting, Report& report);
 /// Not published: the ridge beside medial skeletons, under noise, maps and remeshing.
 void medial_experiment(const Setting& setting, Report& report);
 /// Not published: the curve skeleton beside mean curvature skeletons.

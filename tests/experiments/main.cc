@@ -35,6 +35,7 @@ constexpr Experiment kExperiments[] = {
     {"reach", reach_experiment},
     {"limbs", limbs_experiment},
     {"tessellations", tessellation_experiment},
+    {"confirmations", confirmation_experiment},
     {"medial", medial_experiment},
     {"growth", growth_experiment},
 };

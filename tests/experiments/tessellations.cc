@@ -4,19 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <numeric>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/erosion/erosion.h"
-#include "core/infimum/refine.h"
-#include "core/lattice/lattice_coordinates.h"
 #include "core/quality/similarity.h"
 #include "curvature_skeleton.h"
 #include "experiments.h"
+#include "fields.h"
 #include "job.h"
 #include "sheet.h"
 
@@ -24,79 +19,6 @@ namespace affskel::experiments {
 namespace {
 
 constexpr double kRadius = 250;  // mesh units, within which skeletons are alike: 1/72 of the body's height
-constexpr const char* kSeeds = "triangles+sphere:5000";  // that infima are begun from
-
-// A lattice in mesh units, so that solids with other boxes share its places.
-struct Grid {
-  core::LatticeGrid grid;
-  double spacing = 0;
-};
-
-// By lattice place.
-using Values = std::map<core::LatticePlace, double>;
-
-// Fields over a set and over all directions, each with its ridge.
-class Fields {
- public:
-  Fields(const core::Mesh& mesh, const Grid& grid, const std::string& directions, unsigned threads)
-      : threads_(threads) {
-    job_.mesh = mesh;
-    job_.solid = core::make_solid(mesh);
-    core::LatticeGrid scaled = grid.grid;
-    const double unit = job_.solid.scale();
-    scaled.origin = (1 / unit) * (scaled.origin - job_.solid.centre);
-    for (core::Vec3& axis : scaled.axes) axis = (1 / unit) * axis;
-    job_.lattice = core::make_lattice(job_.solid, scaled, threads);
-    job_.lattice.spacing = grid.spacing;
-    job_.directions = core::make_directions(job_.solid, directions);
-    erode();
-  }
-
-  // Of the set until go_on() is called, then of all directions: one of its own for each point.
-  const Job& job() const { return job_; }
-
-  void go_on() {
-    core::ExecutionContext context;
-    const core::PieceInput input(job_.solid, threads_);
-    const std::vector<core::LeastChord> least =
-        core::refine(input, job_.lattice, job_.directions, erosion_->field(), {.threads = threads_}, context);
-    job_.directions.clear();
-    for (std::uint32_t p = 0; p < least.size(); ++p) {
-      job_.directions.push_back(least[p].normal);
-      put(p, {least[p].erosion, least[p].slope, p});
-    }
-  }
-
-  Values erosion() const {
-    std::vector<std::uint32_t> all(job_.lattice.points);
-    std::iota(all.begin(), all.end(), 0U);
-    const std::vector<core::LatticePlace> places = core::lattice_places(job_.lattice, all);
-    Values values;
-    for (const std::uint32_t p : all) values[places[p]] = job_.values[p].erosion;
-    return values;
-  }
-
- private:
-  void erode() {
-    erosion_.emplace(job_.solid, job_.lattice, job_.directions, core::ErosionOptions{.threads = threads_});
-    std::vector<std::uint32_t> list(job_.directions.size());
-    std::iota(list.begin(), list.end(), 0U);
-    core::ExecutionContext context;
-    erosion_->run(list, context);
-    job_.values.resize(job_.lattice.points);
-    for (std::uint32_t p = 0; p < job_.lattice.points; ++p) put(p, erosion_->field().value(p));
-  }
-
-  void put(std::uint32_t p, core::FieldValue value) {
-    value.erosion *= std::ldexp(1.0, 3 * job_.solid.exponent);
-    value.area *= std::ldexp(1.0, 2 * job_.solid.exponent);
-    job_.values[p] = value;
-  }
-
-  unsigned threads_;
-  Job job_;
-  std::optional<core::Erosion> erosion_;
-};
 
 // E over that of another field, ascending, at the places that both have.
 std::vector<double> ratios(const Values& some, const Values& others) {
@@ -157,14 +79,6 @@ Tessellation study(std::string name, const core::Mesh& mesh, const Grid& grid, u
           ridge_sheet_of(set.job()).points.place,
           ridge_sheet_of(infimum.job()).points.place,
           curvature_skeleton(mesh).points};
-}
-
-Grid grid_round(const core::Mesh& mesh, double spacing) {
-  const Job job = compute(mesh, {spacing, "sphere:20"});
-  Grid grid{job.lattice.grid, spacing};
-  grid.grid.origin = job.solid.centre + job.solid.scale() * grid.grid.origin;
-  for (core::Vec3& axis : grid.grid.axes) axis = job.solid.scale() * axis;
-  return grid;
 }
 
 void compare_tessellations(const Setting& setting, Report& report) {
