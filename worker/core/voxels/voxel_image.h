@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "base/packed_numbers.h"
 #include "core/base/affine_map.h"
-#include "core/base/packed_numbers.h"
 
 namespace affskel::core {
 
@@ -12,7 +12,7 @@ namespace affskel::core {
 struct VoxelImage {
   std::array<std::size_t, 3> size{};  ///< voxels along the axes, each >= 1
   AffineMap place;                    ///< of a voxel by its indices, in the file's units
-  PackedNumbers numbers;              ///< the first index runs fastest
+  base::PackedNumbers numbers;        ///< the first index runs fastest
   double scale = 1, offset = 0;
 
   double value(std::size_t voxel) const { return offset + scale * numbers[voxel]; }

@@ -28,7 +28,7 @@ VoxelImage sampled(const std::array<std::size_t, 3>& size, const AffineMap& plac
       for (std::size_t i = 0; i < size[0]; ++i)
         base::append(values, static_cast<float>(f(place(
                                  {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}))));
-  return {size, place, PackedNumbers(std::move(values), kNumberKind<float>)};
+  return {size, place, base::PackedNumbers(std::move(values), base::kNumberKind<float>)};
 }
 
 AffineMap grid(const Vec3& low, double step) {

@@ -19,16 +19,17 @@ bool is_metaimage(std::string_view bytes) {
 }
 
 VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
-  static const std::map<std::string, NumberKind> kTypes = {{"met_char", kNumberKind<std::int8_t>},
-                                                           {"met_uchar", kNumberKind<std::uint8_t>},
-                                                           {"met_short", kNumberKind<std::int16_t>},
-                                                           {"met_ushort", kNumberKind<std::uint16_t>},
-                                                           {"met_int", kNumberKind<std::int32_t>},
-                                                           {"met_uint", kNumberKind<std::uint32_t>},
-                                                           {"met_long_long", kNumberKind<std::int64_t>},
-                                                           {"met_ulong_long", kNumberKind<std::uint64_t>},
-                                                           {"met_float", kNumberKind<float>},
-                                                           {"met_double", kNumberKind<double>}};
+  static const std::map<std::string, base::NumberKind> kTypes = {
+      {"met_char", base::kNumberKind<std::int8_t>},
+      {"met_uchar", base::kNumberKind<std::uint8_t>},
+      {"met_short", base::kNumberKind<std::int16_t>},
+      {"met_ushort", base::kNumberKind<std::uint16_t>},
+      {"met_int", base::kNumberKind<std::int32_t>},
+      {"met_uint", base::kNumberKind<std::uint32_t>},
+      {"met_long_long", base::kNumberKind<std::int64_t>},
+      {"met_ulong_long", base::kNumberKind<std::uint64_t>},
+      {"met_float", base::kNumberKind<float>},
+      {"met_double", base::kNumberKind<double>}};
   VoxelHeader header;
   std::string_view data = read_header_lines(bytes, [&](std::string_view text, std::uint64_t line) {
     const std::size_t sign = text.find('=');

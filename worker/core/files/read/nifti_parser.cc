@@ -44,17 +44,17 @@ class Nifti {
  private:
   template <class Number>
   Number number(std::size_t at) const {
-    return decode_ordered<Number>(bytes_.data() + at, big_);
+    return base::decode_ordered<Number>(bytes_.data() + at, big_);
   }
   double at(std::size_t place) const { return number<float>(place); }
 
-  NumberKind kind() const {
-    static const std::map<int, NumberKind> kTypes = {
-        {2, kNumberKind<std::uint8_t>},    {4, kNumberKind<std::int16_t>},
-        {8, kNumberKind<std::int32_t>},    {16, kNumberKind<float>},
-        {64, kNumberKind<double>},         {256, kNumberKind<std::int8_t>},
-        {512, kNumberKind<std::uint16_t>}, {768, kNumberKind<std::uint32_t>},
-        {1024, kNumberKind<std::int64_t>}, {1280, kNumberKind<std::uint64_t>}};
+  base::NumberKind kind() const {
+    static const std::map<int, base::NumberKind> kTypes = {
+        {2, base::kNumberKind<std::uint8_t>},    {4, base::kNumberKind<std::int16_t>},
+        {8, base::kNumberKind<std::int32_t>},    {16, base::kNumberKind<float>},
+        {64, base::kNumberKind<double>},         {256, base::kNumberKind<std::int8_t>},
+        {512, base::kNumberKind<std::uint16_t>}, {768, base::kNumberKind<std::uint32_t>},
+        {1024, base::kNumberKind<std::int64_t>}, {1280, base::kNumberKind<std::uint64_t>}};
     const auto found = kTypes.find(number<std::int16_t>(70));
     if (found == kTypes.end())
       fail_at(0, "type of values " + std::to_string(number<std::int16_t>(70)) + " is not read");

@@ -16,39 +16,40 @@
 namespace affskel::core {
 namespace {
 
-NumberKind nrrd_kind(const VoxelHeader& header) {
-  static const std::map<std::string, NumberKind> kNames = {{"signed char", kNumberKind<std::int8_t>},
-                                                           {"int8", kNumberKind<std::int8_t>},
-                                                           {"int8_t", kNumberKind<std::int8_t>},
-                                                           {"uchar", kNumberKind<std::uint8_t>},
-                                                           {"unsigned char", kNumberKind<std::uint8_t>},
-                                                           {"uint8", kNumberKind<std::uint8_t>},
-                                                           {"uint8_t", kNumberKind<std::uint8_t>},
-                                                           {"short", kNumberKind<std::int16_t>},
-                                                           {"short int", kNumberKind<std::int16_t>},
-                                                           {"int16", kNumberKind<std::int16_t>},
-                                                           {"int16_t", kNumberKind<std::int16_t>},
-                                                           {"signed short", kNumberKind<std::int16_t>},
-                                                           {"ushort", kNumberKind<std::uint16_t>},
-                                                           {"unsigned short", kNumberKind<std::uint16_t>},
-                                                           {"uint16", kNumberKind<std::uint16_t>},
-                                                           {"uint16_t", kNumberKind<std::uint16_t>},
-                                                           {"int", kNumberKind<std::int32_t>},
-                                                           {"signed int", kNumberKind<std::int32_t>},
-                                                           {"int32", kNumberKind<std::int32_t>},
-                                                           {"int32_t", kNumberKind<std::int32_t>},
-                                                           {"uint", kNumberKind<std::uint32_t>},
-                                                           {"unsigned int", kNumberKind<std::uint32_t>},
-                                                           {"uint32", kNumberKind<std::uint32_t>},
-                                                           {"uint32_t", kNumberKind<std::uint32_t>},
-                                                           {"int64", kNumberKind<std::int64_t>},
-                                                           {"int64_t", kNumberKind<std::int64_t>},
-                                                           {"longlong", kNumberKind<std::int64_t>},
-                                                           {"uint64", kNumberKind<std::uint64_t>},
-                                                           {"uint64_t", kNumberKind<std::uint64_t>},
-                                                           {"ulonglong", kNumberKind<std::uint64_t>},
-                                                           {"float", kNumberKind<float>},
-                                                           {"double", kNumberKind<double>}};
+base::NumberKind nrrd_kind(const VoxelHeader& header) {
+  static const std::map<std::string, base::NumberKind> kNames = {
+      {"signed char", base::kNumberKind<std::int8_t>},
+      {"int8", base::kNumberKind<std::int8_t>},
+      {"int8_t", base::kNumberKind<std::int8_t>},
+      {"uchar", base::kNumberKind<std::uint8_t>},
+      {"unsigned char", base::kNumberKind<std::uint8_t>},
+      {"uint8", base::kNumberKind<std::uint8_t>},
+      {"uint8_t", base::kNumberKind<std::uint8_t>},
+      {"short", base::kNumberKind<std::int16_t>},
+      {"short int", base::kNumberKind<std::int16_t>},
+      {"int16", base::kNumberKind<std::int16_t>},
+      {"int16_t", base::kNumberKind<std::int16_t>},
+      {"signed short", base::kNumberKind<std::int16_t>},
+      {"ushort", base::kNumberKind<std::uint16_t>},
+      {"unsigned short", base::kNumberKind<std::uint16_t>},
+      {"uint16", base::kNumberKind<std::uint16_t>},
+      {"uint16_t", base::kNumberKind<std::uint16_t>},
+      {"int", base::kNumberKind<std::int32_t>},
+      {"signed int", base::kNumberKind<std::int32_t>},
+      {"int32", base::kNumberKind<std::int32_t>},
+      {"int32_t", base::kNumberKind<std::int32_t>},
+      {"uint", base::kNumberKind<std::uint32_t>},
+      {"unsigned int", base::kNumberKind<std::uint32_t>},
+      {"uint32", base::kNumberKind<std::uint32_t>},
+      {"uint32_t", base::kNumberKind<std::uint32_t>},
+      {"int64", base::kNumberKind<std::int64_t>},
+      {"int64_t", base::kNumberKind<std::int64_t>},
+      {"longlong", base::kNumberKind<std::int64_t>},
+      {"uint64", base::kNumberKind<std::uint64_t>},
+      {"uint64_t", base::kNumberKind<std::uint64_t>},
+      {"ulonglong", base::kNumberKind<std::uint64_t>},
+      {"float", base::kNumberKind<float>},
+      {"double", base::kNumberKind<double>}};
   const auto found = kNames.find(lower_case(header.word("type")));
   if (found == kNames.end())
     fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
@@ -90,7 +91,7 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   image.size = sizes_of(header.numbers("sizes"), header.line("sizes"));
   image.place = nrrd_place(header);
   const std::size_t count = voxels_of(image.size);
-  const NumberKind kind = nrrd_kind(header);
+  const base::NumberKind kind = nrrd_kind(header);
   const bool big = lower_case(header.word("endian")) == "big";
   const std::string encoding = lower_case(header.word("encoding", "raw"));
   if (header.has("line skip") || header.has("lineskip") || header.has("byte skip") || header.has("byteskip"))
@@ -112,7 +113,7 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
     values.reserve(count * sizeof(float));
     for (std::string_view word = words.next(); !word.empty(); word = words.next())
       base::append(values, static_cast<float>(parse_finite(word, words.line(), "value")));
-    image.numbers = PackedNumbers(std::move(values), kNumberKind<float>);
+    image.numbers = base::PackedNumbers(std::move(values), base::kNumberKind<float>);
     if (image.numbers.size() != count)
       fail_at(words.line(),
               std::to_string(image.numbers.size()) + " values for " + std::to_string(count) + " voxels");

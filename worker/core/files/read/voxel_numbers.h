@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/packed_numbers.h"
+#include "base/packed_numbers.h"
 #include "core/base/vec3.h"
 #include "core/files/read/voxel_parsers.h"
 #include "core/voxels/voxel_image.h"
@@ -29,9 +29,10 @@ void require_bytes(std::size_t voxels, std::size_t given, std::size_t bytes_per_
 /// @param bytes of them, more may follow; a view must outlive them.
 /// @throws CoreError kBadInput when there are too few.
 template <class Bytes>
-PackedNumbers numbers_of(std::size_t voxels, Bytes&& bytes, const NumberKind& kind, bool big_endian) {
+base::PackedNumbers numbers_of(std::size_t voxels, Bytes&& bytes, const base::NumberKind& kind,
+                               bool big_endian) {
   require_bytes(voxels, bytes.size(), kind.bytes);
-  return PackedNumbers(std::forward<Bytes>(bytes), kind, big_endian);
+  return base::PackedNumbers(std::forward<Bytes>(bytes), kind, big_endian);
 }
 
 /// Three sizes; more axes only where they have one item.

@@ -23,12 +23,12 @@ namespace {
 struct Type {
   std::string_view name;
   bool whole;
-  NumberKind kind;
+  base::NumberKind kind;
 };
 
 template <typename Number>
 constexpr Type type_of(std::string_view name) {
-  return {name, std::is_integral_v<Number>, kNumberKind<Number>};
+  return {name, std::is_integral_v<Number>, base::kNumberKind<Number>};
 }
 
 constexpr std::array<Type, 10> kTypes = {type_of<std::int8_t>("Int8"),   type_of<std::uint8_t>("UInt8"),
@@ -47,7 +47,7 @@ class Decoder {
  public:
   Decoder(const VtkArray& array, const VtkEncoding& encoding) : array_(array), encoding_(encoding) {}
 
-  PackedNumbers run() const {
+  base::PackedNumbers run() const {
     const Type* type = find_type(array_.type);
     if (type == nullptr) fail("has the type " + quoted_excerpt(array_.type));
     if (array_.format == "ascii") return words(*type);
@@ -70,7 +70,7 @@ class Decoder {
     fail_at(array_.line, "array " + quoted_excerpt(array_.name) + " " + what);
   }
 
-  PackedNumbers words(const Type& type) const {
+  base::PackedNumbers words(const Type& type) const {
     std::string values;
     TextWords text(array_.text);
     for (std::string_view word = text.next(); !word.empty(); word = text.next()) {
@@ -79,7 +79,7 @@ class Decoder {
         fail("holds " + quoted_excerpt(word) + ", which is not a whole number");
       base::append(values, value);
     }
-    return {std::move(values), kNumberKind<double>};
+    return {std::move(values), base::kNumberKind<double>};
   }
 
   std::string from_base64(std::string_view text) const {
@@ -92,8 +92,8 @@ class Decoder {
 
   std::uint64_t announced(std::string_view bytes) const {
     if (bytes.size() < header_size()) fail("ends before its length");
-    return encoding_.long_headers ? decode_ordered<std::uint64_t>(bytes.data(), encoding_.big_endian)
-                                  : decode_ordered<std::uint32_t>(bytes.data(), encoding_.big_endian);
+    return encoding_.long_headers ? base::decode_ordered<std::uint64_t>(bytes.data(), encoding_.big_endian)
+                                  : base::decode_ordered<std::uint32_t>(bytes.data(), encoding_.big_endian);
   }
 
   // The bytes behind the header that gives their number.
@@ -106,14 +106,14 @@ class Decoder {
     return bytes.substr(header_size(), length);
   }
 
-  PackedNumbers owned_numbers(std::string&& bytes, const Type& type) const {
+  base::PackedNumbers owned_numbers(std::string&& bytes, const Type& type) const {
     const std::size_t length = body(bytes).size();
     bytes.resize(header_size() + length);
     return numbers_of(std::move(bytes.erase(0, header_size())), type);
   }
 
   // Other arrays follow without a separator: the header gives the length of this one.
-  PackedNumbers appended_base64(std::string_view text, const Type& type) const {
+  base::PackedNumbers appended_base64(std::string_view text, const Type& type) const {
     constexpr std::size_t kHead = 12;  // digits that hold any header
     const std::uint64_t length = announced(from_base64(text.substr(0, kHead)));
     if (length > text.size()) fail("announces " + std::to_string(length) + " bytes, more than follow");
@@ -122,7 +122,7 @@ class Decoder {
   }
 
   template <class Bytes>
-  PackedNumbers numbers_of(Bytes&& bytes, const Type& type) const {
+  base::PackedNumbers numbers_of(Bytes&& bytes, const Type& type) const {
     if (bytes.size() % type.kind.bytes != 0) fail("has half a number at its end");
     return {std::forward<Bytes>(bytes), type.kind, encoding_.big_endian};
   }
@@ -142,7 +142,7 @@ bool is_vtk_whole(std::string_view type) {
   return found != nullptr && found->whole;
 }
 
-PackedNumbers vtk_numbers(const VtkArray& array, const VtkEncoding& encoding) {
+base::PackedNumbers vtk_numbers(const VtkArray& array, const VtkEncoding& encoding) {
   return Decoder(array, encoding).run();
 }
 

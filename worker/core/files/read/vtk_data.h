@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/packed_numbers.h"
+#include "base/packed_numbers.h"
 
 namespace affskel::core {
 
@@ -32,6 +32,6 @@ bool is_vtk_whole(std::string_view type);
 /// The numbers of an array, all components one point after the other; those that are appended raw are seen in the
 /// file's bytes, which must outlive them.
 /// @throws CoreError kBadInput with the line of its tag, also for compressed data, which are not read.
-PackedNumbers vtk_numbers(const VtkArray& array, const VtkEncoding& encoding);
+base::PackedNumbers vtk_numbers(const VtkArray& array, const VtkEncoding& encoding);
 
 }  // namespace affskel::core

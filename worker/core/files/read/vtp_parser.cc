@@ -38,8 +38,8 @@ class VtpReader {
  private:
   // A value takes at least a byte of the file.  More values than bytes mean that arrays share their bytes,
   // which could take any amount of memory.
-  PackedNumbers numbers(const VtkArray& array) {
-    PackedNumbers values = vtk_numbers(array, description_.encoding);
+  base::PackedNumbers numbers(const VtkArray& array) {
+    base::PackedNumbers values = vtk_numbers(array, description_.encoding);
     if (values.size() > values_left_) {
       fail_at(array.line, "array " + quoted_excerpt(array.name) +
                               " takes the file beyond one value per byte; arrays must not share their data");
@@ -62,7 +62,7 @@ class VtpReader {
   }
 
   void add_points(const VtkArray& array) {
-    const PackedNumbers xyz = numbers(array);
+    const base::PackedNumbers xyz = numbers(array);
     if (array.components != 3 || xyz.size() % 3 != 0)
       fail_at(array.line, "points must have three coordinates");
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
@@ -80,7 +80,7 @@ class VtpReader {
     columns_filled_ = 0;
     for (const VtkArray& array : piece.arrays["PointData"]) {
       if (!is_vtk_number(array.type)) continue;
-      const PackedNumbers values = point_values(array);
+      const base::PackedNumbers values = point_values(array);
       // An empty piece adds no columns: names without values could cost far more than the file is long.
       if (!(empty && known)) add_values(array, values);
     }
@@ -93,13 +93,13 @@ class VtpReader {
     }
   }
 
-  PackedNumbers point_values(const VtkArray& array) {
+  base::PackedNumbers point_values(const VtkArray& array) {
     const std::size_t points = file_.off.mesh.points.size() - first_point_;
     if (array.components == 0 || array.components > kMaxColumns) {
       fail_at(array.line, "array " + quoted_excerpt(array.name) + " has " + std::to_string(array.components) +
                               " components; 1 to " + std::to_string(kMaxColumns) + " are read");
     }
-    PackedNumbers values = numbers(array);
+    base::PackedNumbers values = numbers(array);
     if (values.size() != points * array.components) {
       fail_at(array.line, "array " + quoted_excerpt(array.name) + " has " + std::to_string(values.size()) +
                               " numbers for " + std::to_string(points) + " points of " +
@@ -108,7 +108,7 @@ class VtpReader {
     return values;
   }
 
-  void add_values(const VtkArray& array, const PackedNumbers& values) {
+  void add_values(const VtkArray& array, const base::PackedNumbers& values) {
     const std::vector<std::string> names = columns_of_array(array.name, array.components);
     for (std::size_t c = 0; c < names.size(); ++c) {
       PointColumn& column = column_of(names[c], array);
@@ -147,7 +147,7 @@ class VtpReader {
   struct WholeNumbers {
     const char* name;
     std::uint64_t line = 0;
-    PackedNumbers numbers;
+    base::PackedNumbers numbers;
 
     std::int64_t operator[](std::size_t i) const {
       const double value = numbers[i];

@@ -10,15 +10,15 @@
 
 #include "base/coding.h"
 
-namespace affskel::core {
+namespace affskel::base {
 
 /// The number whose bytes are at `at`, the most significant first or last.
-template <base::Codable Number>
+template <Codable Number>
 Number decode_ordered(const char* at, bool big_endian) {
-  if (!big_endian) return base::decode<Number>(at);
+  if (!big_endian) return decode<Number>(at);
   std::array<char, sizeof(Number)> raw;
   std::reverse_copy(at, at + sizeof(Number), raw.begin());
-  return base::decode<Number>(raw.data());
+  return decode<Number>(raw.data());
 }
 
 /// A type of numbers in files: their size, and how one becomes a double.
@@ -27,7 +27,7 @@ struct NumberKind {
   double (*decode)(const char* at, bool big_endian);
 };
 
-template <base::Codable Number>
+template <Codable Number>
 inline constexpr NumberKind kNumberKind{sizeof(Number), [](const char* at, bool big_endian) {
                                           return static_cast<double>(decode_ordered<Number>(at, big_endian));
                                         }};
@@ -59,4 +59,4 @@ class PackedNumbers {
   bool big_endian_ = false;
 };
 
-}  // namespace affskel::core
+}  // namespace affskel::base
