@@ -71,7 +71,8 @@ class Collapsing {
   ///   those of one time in waves, each what the one before has freed, and of cells with one coface the one of
   ///   the least level(cell), so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
-  ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was removed.
+  ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was
+  ///   removed.
   template <class Rules>
   void run(Rules& rules) {
     for (Cell cell = 0; cell < state_.size(); ++cell) offer(cell, 0, rules);
