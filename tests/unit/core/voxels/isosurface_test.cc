@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "core/shapes/body_shape.h"
 #include "core/solid/solid.h"
 #include "core/stopping_context.h"
+#include "tools/peak_memory.h"
 
 namespace affskel::core {
 namespace {
@@ -62,24 +62,15 @@ TEST(Isosurface, OfABallHasItsVolume) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-std::uint64_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  std::uint64_t kib = 0;
-  while (status >> word)
-    if (word == "VmHWM:") status >> kib;
-  return kib << 10;
-}
-
 // A mask has the same two values everywhere: what is far from its surface takes no memory, whose cubes would take 200 MB.
 TEST(IsosurfaceDeathTest, OfAMaskLooksAtWhatIsNearAlone) {
   const VoxelImage image = sampled({160, 160, 160}, grid({-80, -80, -80}, 1),
                                    [](const Vec3& p) { return ball(p) < 0 ? 1.0 : 0.0; });
   EXPECT_EXIT(
       {
-        const std::uint64_t before = peak_bytes();
+        const std::uint64_t before = tests::peak_memory();
         const Isosurface found = isosurface(image, {0.5});
-        _exit(!found.below && peak_bytes() - before < (48U << 20) ? 0 : 1);
+        _exit(!found.below && tests::peak_memory() - before < (48U << 20) ? 0 : 1);
       },
       ::testing::ExitedWithCode(0), "");
 }

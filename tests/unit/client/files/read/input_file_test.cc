@@ -7,7 +7,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -20,6 +19,7 @@
 #include "core/shapes/shapes.h"
 #include "tools/files.h"
 #include "tools/gzipped.h"
+#include "tools/peak_memory.h"
 #include "tools/temporary_directory.h"
 #include "wire/sha256.h"
 
@@ -202,20 +202,11 @@ TEST(CheckSolid, StopsWhenAsked) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-std::uint64_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  std::uint64_t kib = 0;
-  while (status >> word)
-    if (word == "VmHWM:") status >> kib;
-  return kib << 10;
-}
-
 // 0 when reading keeps to its bound.
 [[noreturn]] void read_within_bound(const std::string& path) {
-  const std::uint64_t before = peak_bytes();
+  const std::uint64_t before = tests::peak_memory();
   const InputFile input = read_input(path);
-  const std::uint64_t taken = peak_bytes() - before;
+  const std::uint64_t taken = tests::peak_memory() - before;
   std::fprintf(stderr, "%ju bytes for %ju\n", std::uintmax_t{taken}, std::uintmax_t{input.file_bytes});
   _exit(taken <= 4 * input.file_bytes + (32U << 20) ? 0 : 1);
 }

@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 #include "core/files/read/parse_shape.h"
 #include "core/shapes/shapes.h"
+#include "tools/peak_memory.h"
 #include "tools/sample_files.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -17,21 +17,12 @@ namespace {
 
 using namespace tests::samples;
 
-std::uint64_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  std::uint64_t kib = 0;
-  while (status >> word)
-    if (word == "VmHWM:") status >> kib;
-  return kib << 10;
-}
-
 // 0 when reading takes no more than three times the bytes, which are held once already, and 32 MB.
 [[noreturn]] void read_within_bound(const std::string& extension, const std::string& bytes,
                                     const MeshFileOptions& options = {}) {
-  const std::uint64_t before = peak_bytes();
+  const std::uint64_t before = tests::peak_memory();
   const MeshFile file = parse_mesh_file(extension, bytes, options);
-  const std::uint64_t taken = peak_bytes() - before;
+  const std::uint64_t taken = tests::peak_memory() - before;
   std::fprintf(stderr, "%ju bytes for %zu\n", std::uintmax_t{taken}, bytes.size());
   _exit(!file.off.mesh.triangles.empty() && taken <= 3 * bytes.size() + (32U << 20) ? 0 : 1);
 }
