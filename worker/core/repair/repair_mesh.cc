@@ -1,7 +1,7 @@
 #include "core/repair/repair_mesh.h"
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/number_text.h"
 #include "core/base/disjoint_sets.h"
@@ -11,6 +11,7 @@
 #include "core/mesh/touching_edges.h"
 #include "core/mesh/unused_points.h"
 #include "core/repair/alpha_wrap.h"
+#include "core/repair/cloud_surface.h"
 #include "core/repair/fill_holes.h"
 #include "core/repair/orient_soup.h"
 #include "core/solid/solid.h"
@@ -173,19 +174,55 @@ class Mending {
   std::vector<std::uint32_t> rims_;  // of each hole a point
 };
 
+void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
+  const Mesh& mesh = result.mesh;
+  DisjointSets pieces(mesh.points.size());
+  for (const Triangle& t : mesh.triangles) {
+    pieces.unite(t[0], t[1]);
+    pieces.unite(t[0], t[2]);
+  }
+  std::int64_t count = 0;
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) count += pieces.find(v) == v ? 1 : 0;
+  // Euler and Poincare: a closed surface has half as many edges again as triangles.
+  const auto characteristic =
+      static_cast<std::int64_t>(mesh.points.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
+  const auto handles = static_cast<std::uint64_t>(count - characteristic / 2);
+  result.steps.push_back({"wrapped", mesh.triangles.size(),
+                          "wrapped by " + base::counted(mesh.triangles.size(), "triangle") + " in " +
+                              base::counted(static_cast<std::uint64_t>(count), "piece") +
+                              (handles > 0 ? " with " + base::counted(handles, "handle") : "") +
+                              ", hollows narrower than " + short_text(wrap.alpha) + " are closed"});
+}
+
+// The surface through a cloud, with what was done for it. @return spacing of its points.
+double surface_cloud(const std::vector<Vec3>& points, ExecutionContext* context, RepairedMesh& result) {
+  CloudSurface cloud = cloud_surface(points, {context});
+  if (cloud.lone > 0)
+    result.steps.push_back(
+        {"lone-points", cloud.lone, base::counted(cloud.lone, "point") + " far from all others left out"});
+  result.steps.push_back(
+      {"surfaced", cloud.used,
+       "a surface laid through " + base::counted(cloud.used, "point") + ", " + short_text(cloud.spacing) +
+           " apart; it lies " + short_text(cloud.mean_distance) + " from them in the mean" +
+           (cloud.unseen > 0 ? ", and no point is near " + short_text(100 * cloud.unseen) + " % of it"
+                             : "")});
+  result.mesh = std::move(cloud.mesh);
+  return cloud.spacing;
+}
+
 RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
+  const double finest = kFinestWrap * diagonal(mesh);
+  if (options.alpha > 0 && options.alpha < finest) {
+    throw CoreError(CoreError::Code::kBadInput, "a wrap by alpha " + short_text(options.alpha) +
+                                                    " would be too fine; take " + short_text(1.01 * finest) +
+                                                    " or more");
+  }
   AlphaWrapOptions wrap;
   wrap.context = options.context;
-  wrap.alpha = options.alpha > 0 ? options.alpha : kWrapDetail * diagonal(mesh);
-  wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
-  if (wrap.alpha < kFinestWrap * diagonal(mesh)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "a wrap by alpha " + short_text(wrap.alpha) + " would be too fine; take " +
-                        short_text(1.01 * kFinestWrap * diagonal(mesh)) + " or more");
-  }
+  wrap.alpha = kWrapDetail * diagonal(mesh);
   RepairedMesh result;
   if (mesh.triangles.empty()) {
-    result.mesh = mesh;
+    wrap.alpha = std::max(wrap.alpha, surface_cloud(mesh.points, options.context, result));
   } else {
     // Through a hole that is wider than alpha the wrap would enter.
     RepairOptions all = options;
@@ -193,10 +230,10 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
     result = Mending(mesh, all).result();
     result.left.clear();
   }
+  if (options.alpha > 0) wrap.alpha = options.alpha;
+  wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
   result.mesh = alpha_wrap(result.mesh, wrap);
-  result.steps.push_back({"wrapped", result.mesh.triangles.size(),
-                          "wrapped by " + base::counted(result.mesh.triangles.size(), "triangle") +
-                              ", hollows narrower than " + short_text(wrap.alpha) + " are closed"});
+  tell_wrap(wrap, result);
   return result;
 }
 

@@ -11,14 +11,16 @@ namespace affskel::core {
 
 enum class RepairKind {
   kMend,  ///< weld, orient, separate, fill holes, drop flaps; what is sound stays as it is
-  kWrap,  ///< a new surface round all of it, for what cannot be mended; see alpha_wrap
+  kWrap,  ///< a new surface round all of it, for what cannot be mended, or round the surface through points alone; see
+  ///< alpha_wrap, cloud_surface
 };
 
 struct RepairOptions {
   RepairKind kind = RepairKind::kMend;
   double longest_hole = 0;  ///< of a boundary loop that is filled, mesh units; 0: 0.6 of the box's diagonal
-  double alpha = 0;         ///< of a wrap, mesh units; 0: a 220th of the box's diagonal
-  double offset = 0;        ///< of a wrap, mesh units; 0: a tenth of alpha
+  double alpha =
+      0;  ///< of a wrap, mesh units; 0: a 220th of the box's diagonal, no less than a cloud's spacing
+  double offset = 0;  ///< of a wrap, mesh units; 0: a tenth of alpha
   ExecutionContext* context = nullptr;
 };
 
@@ -27,7 +29,7 @@ struct RepairStep {
   std::string
       code;  ///< stable: "welded-points", "unused-points", "degenerate-triangles", "repeated-triangles", "t-junctions",
   ///< "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "bent-fillings", "flaps", "turned-out",
-  ///< "wrapped"
+  ///< "lone-points", "surfaced", "wrapped"
   std::uint64_t count = 0;
   std::string message;  ///< with counts, lengths and places
 };
