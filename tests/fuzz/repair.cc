@@ -1,10 +1,13 @@
-// The repair of triangles in any state: what it says bounds a solid must be closed, and be taken as one.
+// The repair of triangles in any state, and of points alone: what it says bounds a solid must be closed, and be taken as one.
 #include "core/repair/repair_mesh.h"
 
+#include <array>
+#include <cmath>
 #include <map>
 
 #include "bytes.h"
 #include "core/base/error.h"
+#include "core/base/split_mix64.h"
 #include "core/solid/solid.h"
 #include "targets.h"
 
@@ -26,6 +29,20 @@ core::Mesh soup(Bytes& bytes) {
   return mesh;
 }
 
+// Points alone, in a box, on a ball or on a circle, rounded to a grid and pressed flat.
+core::Mesh cloud(Bytes& bytes) {
+  core::SplitMix64 random(bytes.below(256));
+  const unsigned points = 90 + bytes.below(160), shape = bytes.below(3);
+  const double grid = 1 + bytes.below(40), thin = std::array{1.0, 0.1, 1e-12, 0.0}[bytes.below(4)];
+  core::Mesh mesh;
+  for (unsigned v = 0; v < points; ++v) {
+    core::Vec3 p{random.symmetric(), random.symmetric(), shape == 2 ? 0 : random.symmetric()};
+    if (shape > 0) p = (1 / norm(p)) * p;
+    mesh.points.push_back({std::round(grid * p.x), std::round(grid * p.y), thin * std::round(grid * p.z)});
+  }
+  return mesh;
+}
+
 void check_closed(const core::Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sense;  // how often an edge is passed one way
   for (const core::Triangle& t : mesh.triangles) {
@@ -42,11 +59,12 @@ void run(std::string_view input) {
   const unsigned how = bytes.below(16);
   options.kind = how == 0 ? core::RepairKind::kWrap : core::RepairKind::kMend;
   if (how == 0) options.alpha = 0.5;
+  if (how == 2) options.kind = core::RepairKind::kWrap;
   if (how == 1) options.longest_hole = 3;
   if (how > 8) options.longest_hole = 1e3;
   core::RepairedMesh repaired;
   try {
-    repaired = core::repair_mesh(soup(bytes), options);
+    repaired = core::repair_mesh(how == 2 ? cloud(bytes) : soup(bytes), options);
   } catch (const core::CoreError&) {
     return;
   }
@@ -70,7 +88,7 @@ std::vector<std::string> seeds() {
   std::string turned = faces;
   std::swap(turned[0], turned[1]);
   return {head + corners + faces, head + corners + turned, head + corners + faces.substr(0, 30),
-          std::string{'\x00', 5, 11} + corners + faces.substr(0, 24)};
+          std::string{'\x00', 5, 11} + corners + faces.substr(0, 24), std::string{2, 7, 100, 1, 20, 0}};
 }
 
 }  // namespace
