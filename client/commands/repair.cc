@@ -10,7 +10,6 @@
 #include "client/commands/shared/repair_option.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/files/read/input_file.h"
-#include "client/files/read/read_shape.h"
 #include "client/files/write/shape_writer.h"
 #include "client/text/key_line.h"
 
@@ -21,13 +20,6 @@ struct RepairOptions {
   std::string file, output, format, how = "auto";
   core::MeshFileOptions reading;
 };
-
-// A wrap takes points, too.
-core::Mesh mesh_of(const RepairOptions& options, const RepairChoice& choice) {
-  const bool points = choice.kind == RepairChoice::Kind::kWrap && !options.reading.isovalue;
-  if (points && options.file != "-") return read_shape(options.file).mesh();
-  return read_named_input(options.file, options.reading).off.mesh;
-}
 
 std::string steps_text(const Repair& done) {
   std::string text;
@@ -41,8 +33,9 @@ void run_repair(Context& context, const RepairOptions& options) {
   Console& console = context.console();
   const RepairChoice choice = chosen_repair(options.how);
   const Destination destination = destination_of(options.output, options.format, console);
-  const core::Mesh mesh =
-      context.within_budget(Budget::Work::kReading, options.file, [&] { return mesh_of(options, choice); });
+  const core::Mesh mesh = context.within_budget(Budget::Work::kReading, options.file, [&] {
+    return read_named_input(options.file, options.reading).off.mesh;
+  });
   const Repair done = context.within_budget(Budget::Work::kRepair, options.file,
                                             [&] { return repaired(context, mesh, options.file, choice); });
   ShapeFile shape;

@@ -7,7 +7,7 @@ import { bytes, count, counted, measure, typed } from './numbers.js';
 import { session } from './session.js';
 import { SubmitForm, field, jobName, kUsualPoints } from './submit_form.js';
 
-const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.nrrd', '.mha', '.nii', '.gz', '.zst'];
+const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.xyz', '.csv', '.nrrd', '.mha', '.nii', '.gz', '.zst'];
 const kVoxels = /\.(nrrd|mha|nii)(\.gz|\.zst)?$/i;
 
 function meshFacts(f) {

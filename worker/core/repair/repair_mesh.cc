@@ -273,8 +273,14 @@ void check_size(const Mesh& mesh) {
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   check_size(mesh);
-  RepairedMesh result =
-      options.kind == RepairKind::kWrap ? wrapped(mesh, options) : Mending(mesh, options).result();
+  RepairedMesh result;
+  if (options.kind == RepairKind::kWrap) {
+    result = wrapped(mesh, options);
+  } else if (mesh.triangles.empty()) {
+    result.left = "there are points and no triangles";
+  } else {
+    result = Mending(mesh, options).result();
+  }
   if (result.left.empty()) take_volume(result, options);
   return result;
 }

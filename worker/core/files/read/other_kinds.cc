@@ -63,8 +63,8 @@ void refuse_unknown_kinds(std::string_view bytes) {
       (binary
            ? "is binary, of no kind that is read"
            : "is of no kind that is read, and begins with " + base::quoted(std::string(word.substr(0, 30)))) +
-          "; read are OFF, PLY, OBJ, STL, VTP, glTF, 3MF, of voxels NRRD, MetaImage and NIfTI, and any of "
-          "these packed by gzip or zstd");
+          "; read are OFF, PLY, OBJ, STL, VTP, glTF, 3MF, points as .xyz and .csv, of voxels NRRD, MetaImage and "
+          "NIfTI, and any of these packed by gzip or zstd");
 }
 
 void refuse_other_kinds(std::string_view bytes) {

@@ -71,8 +71,8 @@ std::string_view first_word(std::string_view bytes) {
 }
 
 bool holds_mesh(std::string_view extension) {
-  constexpr std::array<std::string_view, 8> kMeshes = {".off", ".ply", ".obj",  ".stl",
-                                                       ".vtp", ".glb", ".gltf", ".3mf"};
+  constexpr std::array<std::string_view, 10> kMeshes = {".off", ".ply",  ".obj", ".stl", ".vtp",
+                                                        ".glb", ".gltf", ".3mf", ".xyz", ".csv"};
   return std::find(kMeshes.begin(), kMeshes.end(), extension) != kMeshes.end();
 }
 
@@ -139,8 +139,6 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, con
     return {"off", true, read_off(bytes), {}};
   }
   ShapeFile shape = parse_shape(kind, bytes);
-  if (shape.mesh().triangles.empty())
-    throw CoreError(CoreError::Code::kBadInput, "has no triangles; a mesh that bounds a solid is wanted");
   if (!shape.segments.empty()) shape.off.passed_over.push_back({"curves", shape.segments.size(), 0});
   return {kind == ".off" ? "binary off" : std::string(kind.substr(1)), false, std::move(shape.off), {}};
 }

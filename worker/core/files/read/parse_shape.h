@@ -39,16 +39,17 @@ struct MeshFileOptions {
 
 /// A mesh that was read from a file.
 struct MeshFile {
-  std::string format;     ///< off, ply, obj, stl, vtp, glb, gltf, 3mf, "binary off" or "voxels"
+  std::string format;     ///< off, ply, obj, stl, vtp, glb, gltf, 3mf, xyz, csv, "binary off" or "voxels"
   bool off_text = false;  ///< whether the bytes are OFF text
   OffMesh off;
   std::string told;  ///< of voxels: how the surface was made
 };
 
 /// Reads the mesh of a file that is to bound a solid as parse_shape does; what neither content nor extension
-/// tells is OFF text.  Of an image of voxels (see parse_voxels) it is the surface at a value.
-/// @throws CoreError as parse_shape, parse_voxels and isosurface; kBadInput when there are no triangles, no value for
-///   an image of voxels, or one for anything else.
+/// tells is OFF text.  Of an image of voxels (see parse_voxels) it is the surface at a value.  There may be points alone,
+/// which repair_mesh can wrap.
+/// @throws CoreError as parse_shape, parse_voxels and isosurface; kBadInput when there is no value for an image of
+///   voxels, or one for anything else.
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes,
                          const MeshFileOptions& options = {});
 
