@@ -39,7 +39,11 @@ class SolidBuilder {
   }
 
   Solid run() {
-    if (solid_.mesh.triangles.empty()) refuse("the mesh has no triangles");
+    if (solid_.mesh.triangles.empty()) {
+      refuse(solid_.mesh.points.empty() ? "the mesh has no triangles"
+                                        : "there are points and no triangles; affskel-client repair --repair "
+                                          "wrap lays a surface through them");
+    }
     check_points();
     drop_lines();
     drop_unused_vertices();

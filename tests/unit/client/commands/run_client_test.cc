@@ -6,6 +6,8 @@
 
 #include "client_fixture.h"
 #include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
+#include "core/solid/surface_samples.h"
 #include "core/text/off_file.h"
 #include "test_environment.h"
 #include "tools/files.h"
@@ -282,6 +284,21 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   for (const char* wrong : {"mend", "fill=", "fill=-1", "wrap=x", "none=3"})
     EXPECT_EQ(run({"repair", dir_ / "cube.off", "--repair", wrong, "-o", dir_ / "w.off"}).exit_code, 2)
         << wrong;
+}
+
+TEST_F(ClientTest, CloudsOfPointsAreWrappedWhenAsked) {
+  std::string text;
+  for (const core::Vec3& p : core::surface_samples(core::make_sphere(10, 1280), {2000}))
+    text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+  tests::write_file(dir_ / "ball.xyz", text);
+  const Outcome refused = run({"submit", dir_ / "ball.xyz"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("--repair wrap"), std::string::npos) << refused.err;
+  EXPECT_NE(run({"inspect", dir_ / "ball.xyz"}).err.find("--repair wrap"), std::string::npos);
+  const Outcome wrapped = run({"submit", dir_ / "ball.xyz", "--repair", "wrap=1"});
+  EXPECT_EQ(wrapped.exit_code, 0) << wrapped.err;
+  EXPECT_NE(wrapped.err.find("a surface laid through 2000 points"), std::string::npos) << wrapped.err;
+  EXPECT_NEAR(core::make_solid(core::read_off(service_.mesh).mesh).volume, 4e3 / 3 * M_PI, 100);
 }
 
 TEST_F(ClientTest, MakeWritesShapes) {

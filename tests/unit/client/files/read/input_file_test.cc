@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "client/base/error.h"
@@ -173,8 +174,14 @@ TEST(ReadInput, KnowsAFormatByItsContent) {
   EXPECT_EQ(conversion_notices(packed).at(0).code, "UNPACKED");
   tests::write_file(dir / "points.csv.gz", tests::gzipped("x,y,z\n1,2,3\n"));
   EXPECT_EQ(read_shape(dir / "points.csv.gz").mesh().points.size(), 1U);
-  tests::write_file(dir / "points.obj", "v 0 0 0\nv 1 0 0\n");
-  EXPECT_EQ(exit_of([&] { read_input(dir / "points.obj"); }), ExitCode::kBadInput) << "no triangles";
+  for (const auto& [name, rows] : {std::pair{"points.obj", "v 0 0 0\nv 1 0 0\n"},
+                                   {"points.xyz", "0 0 0\n1 0 0\n"},
+                                   {"points.csv", "x,y,z\n0,0,0\n1,0,0\n"}}) {
+    tests::write_file(dir / name, rows);
+    const InputFile points = read_input(dir / name);
+    EXPECT_EQ(points.off.mesh.points.size(), 2U) << name;
+    EXPECT_EQ(exit_of([&] { check_solid(points, true); }), ExitCode::kBadInput) << "no triangles";
+  }
 }
 
 TEST(CheckSolid, RepairsOnlyWhenAllowedAndTellsIt) {
