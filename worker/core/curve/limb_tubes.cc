@@ -66,7 +66,9 @@ void LimbTubes::measure(Limb& limb) const {
     std::size_t first = 1;
     while (first < line.size() && norm(places_[line[at(first)]] - places_[joint]) < kJoint * ball_[joint])
       ++first;
-    const double thickness = first < line.size() ? thickness_of(line[at(first)]) : sorted.front();
+    // In a wide chest an arm's line has large balls beyond the joint, too.
+    const double thickness =
+        std::min(kRoundest * limb.size, first < line.size() ? thickness_of(line[at(first)]) : sorted.front());
     for (std::size_t n = 0; n < first; ++n)
       limb.tube[at(n)] = std::min(kRoundest * ball_[line[at(n)]], thickness);
   }
@@ -115,6 +117,15 @@ bool LimbTubes::holds(const Limb& limb, const Vec3& at) const {
   return false;
 }
 
+// The first whose tube holds a place.
+std::uint32_t LimbTubes::holder(const std::array<std::vector<std::uint32_t>, 2>& limbs,
+                                const Vec3& at) const {
+  for (const auto& round : limbs)
+    for (const std::uint32_t limb : round)
+      if (holds(limbs_[limb], at)) return limb;
+  return kNone;
+}
+
 std::uint32_t LimbTubes::nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at) const {
   double least = kUnreached;
   std::uint32_t nearest = kNone;
@@ -144,16 +155,11 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
   if (limb_of_[nearest] == kNone) return nearest;
   const Limb& limb = limbs_[limb_of_[nearest]];
   if (limb.within != kNone) return nearest_of(limbs_[limb.within].vertices, at);
-  for (const auto& thicker : limb.thicker)
-    for (const std::uint32_t other : thicker)
-      if (holds(limbs_[other], at)) return nearest_of(limbs_[other].vertices, at);
-  const std::uint32_t owner = in_thicker_[nearest];
-  if (owner == kNone && limb.others[0].empty() && limb.others[1].empty()) return nearest;
-  if (holds(limb, at)) return nearest;
-  for (const auto& others : limb.others)
-    for (const std::uint32_t other : others)
-      if (holds(limbs_[other], at)) return nearest_of(limbs_[other].vertices, at);
-  return owner == kNone ? nearest : nearest_of(limbs_[owner].vertices, at);
+  if (const std::uint32_t thicker = holder(limb.thicker, at); thicker != kNone)
+    return nearest_of(limbs_[thicker].vertices, at);
+  std::uint32_t owner = holder(limb.others, at);
+  if (owner == kNone) owner = in_thicker_[nearest];
+  return owner == kNone || holds(limb, at) ? nearest : nearest_of(limbs_[owner].vertices, at);
 }
 
 }  // namespace affskel::core
