@@ -1,6 +1,7 @@
 #include "client/artifacts/solid_parts.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "client/base/error.h"
 
@@ -57,6 +58,12 @@ core::Mesh surface_of(const v1::SolidParts& parts) {
   for (int t = 0; t < surface.corners_size(); t += 3)
     mesh.triangles.push_back({surface.corners(t), surface.corners(t + 1), surface.corners(t + 2)});
   return mesh;
+}
+
+std::vector<Rgb> colours_of(const v1::SolidParts& parts) {
+  return part_colours(surface_of(parts).triangles,
+                      {parts.triangle_part().data(), std::size_t(parts.triangle_part_size())},
+                      static_cast<std::uint32_t>(parts.parts_size()));
 }
 
 }  // namespace affskel::client

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/mesh.h"
 
 namespace affskel::client {
 
@@ -24,9 +28,15 @@ inline Rgb mix(Rgb a, Rgb b, float t) {
 /// Perceptually uniform colours from dark violet (0) over green to yellow (1); t is clamped.
 Rgb viridis(float t);
 
-/// Colours that are told from each other, also by colour-blind people (the nine "muted" ones of Tol, "Colour schemes",
-/// 2021), over again from the tenth on.  @param part from 1.
-Rgb part_colour(std::uint32_t part);
+/// How many parts have a colour of their own.
+inline constexpr std::uint32_t kPartColours = 12;
+
+/// Colours of parts: the first kPartColours have one each, told from all others by people with any kind of colour
+/// blindness.  Further ones have one that none of the parts before them has which they touch, as far as there is one.
+/// @param triangle_part per triangle of the surface: from 1 to `parts`.
+/// @return per part.
+std::vector<Rgb> part_colours(std::span<const core::Triangle> surface,
+                              std::span<const std::uint32_t> triangle_part, std::uint32_t parts);
 
 /// Where E stands on the scale of colours, 0 .. 1.  E varies over orders of magnitude, like a volume: its
 /// cube root is like a length.  @param highest E at 1.

@@ -87,11 +87,12 @@ PaintedBody by_part(const v1::SolidParts& solid) {
   PaintedBody body;
   body.mesh = surface_of(solid);
   body.opacity = kPartOpacity;
-  for (const std::uint32_t part : solid.triangle_part()) body.colours.push_back(part_colour(part));
+  const std::vector<Rgb> colours = colours_of(solid);
+  for (const std::uint32_t part : solid.triangle_part()) body.colours.push_back(colours[part - 1]);
   body.title = "Parts, % of the volume";
   const int shown = std::min(solid.parts_size(), kMaxRows);
   for (int p = 0; p < shown; ++p) {
-    body.rows.push_back({part_colour(static_cast<std::uint32_t>(p) + 1),
+    body.rows.push_back({colours[static_cast<std::size_t>(p)],
                          std::to_string(p + 1) + " " + part_kind_word(solid.parts(p).kind()) + "  " +
                              base::rounded(100 * solid.parts(p).volume_share(), 3)});
   }

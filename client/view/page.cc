@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "client/artifacts/solid_parts.h"
 #include "client/base/colour.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
@@ -199,9 +200,10 @@ ordered_json add_parts(Arrays& arrays, const v1::SolidParts& solid) {
   arrays.add("meshParts", "u16",
              std::vector<std::uint16_t>(solid.triangle_part().begin(), solid.triangle_part().end()));
   arrays.add("meshThickness", "f32", floats(solid.thickness()));
+  const std::vector<Rgb> colours = colours_of(solid);
   for (int p = 0; p < solid.parts_size(); ++p) {
     const v1::SolidPart& part = solid.parts(p);
-    const Rgb colour = part_colour(static_cast<std::uint32_t>(p) + 1);
+    const Rgb& colour = colours[static_cast<std::size_t>(p)];
     parts.push_back({{"kind", part_kind_word(part.kind())},
                      {"share", part.volume_share()},
                      {"volume", part.volume()},

@@ -142,7 +142,7 @@ class Parts(MadeUpPage):
         self.page.choose("body-colour", "part")
         self.page.slide("opacity", 100)
         upper, lower = self.halves()
-        # Light blue and sand, see part_colour.
+        # Light blue and sand, see part_colours().
         self.assertGreater(upper[2], upper[0])
         self.assertGreater(lower[0], lower[2])
         rows = [row.text for row in self.page.element("parts").find_elements("tag name", "tr")]

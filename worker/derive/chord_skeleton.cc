@@ -51,7 +51,7 @@ v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::Fra
 }  // namespace
 
 v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
-  const core::FrameField in_frame = field.in_frame();
+  const core::FrameField& in_frame = field.in_frame();
   const core::ChordSheet sheet = sheet_of(field, in_frame, params.threshold());
   v1::SkeletonPoints message;
   std::vector<core::Vec3> points;
@@ -70,7 +70,7 @@ v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::Skeleton
 
 v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
   const double threshold = params.skeleton().threshold();
-  const core::FrameField in_frame = field.in_frame();
+  const core::FrameField& in_frame = field.in_frame();
   core::ChordSheet sheet = sheet_of(field, in_frame, threshold);
   std::vector<core::Segment> none;
   const SheetBarriers barriers = take_barriers(field, params, sheet, none);

@@ -86,11 +86,12 @@ std::vector<core::Vec3> CurveOfField::places_of(const core::CurveSkeleton& curve
 
 std::vector<double> CurveOfField::radii_of(const core::CurveSkeleton& curve) const {
   const std::vector<core::Vec3> places = places_of(curve);
-  return core::limb_radii({places, curve.segments, curve.share, curve.distance, field_.job().solid().volume});
+  return core::limb_radii(
+      {places, curve.segments, curve.share, curve.slice, curve.distance, field_.job().solid().volume});
 }
 
 core::CurveGraph CurveOfField::graph_of(const core::CurveSkeleton& curve) const {
-  return core::curve_graph(places_of(curve), curve.segments, radii_of(curve), curve.distance, curve.share);
+  return core::curve_graph(places_of(curve), curve.segments, radii_of(curve), curve.share);
 }
 
 std::vector<std::uint32_t> parts_of_points(const core::CurveSkeleton& curve, const core::CurveGraph& graph) {

@@ -20,9 +20,9 @@ double level_of(const FinishedField& field, const v1::ErodedParams& params) {
 // Why an eroded solid is empty.
 core::Advice advice_for(const FinishedField& field, double level) {
   double largest = 0;
-  for (const core::FieldValue& value : field.values()) {
-    if (value.direction != core::FieldValue::kNoDirection) largest = std::max(largest, value.erosion);
-  }
+  for (std::size_t p = 0; p < field.optimal().size(); ++p)
+    if (field.optimal()[p] != core::FieldValue::kNoDirection)
+      largest = std::max(largest, field.in_frame().erosion[p]);
   const double v0 = field.job().solid().volume;
   const auto told = [&](double erosion) {
     return base::rounded(erosion, 4) + " (" + base::rounded(100 * erosion / v0, 4) + " % of v0)";

@@ -38,20 +38,11 @@ FinishedField::FinishedField(const PreparedJob& job, FieldValues field, core::Ex
     : job_(job),
       context_(context),
       threads_(threads),
-      field_(std::move(field)),
-      frame_directions_(core::frame_directions(job.lattice(), field_.directions)),
+      over_set_(field.over_set),
+      in_frame_(core::frame_field(job.lattice(), field.directions, field.values)),
+      directions_(std::move(field.directions)),
+      frame_directions_(core::frame_directions(job.lattice(), directions_)),
       places_(job.solid(), job.lattice()) {}
-
-core::OptimalDirections FinishedField::optimal() const {
-  core::OptimalDirections list;
-  list.reserve(values().size());
-  for (const core::FieldValue& value : values()) list.push_back(value.direction);
-  return list;
-}
-
-core::FrameField FinishedField::in_frame() const {
-  return core::frame_field(lattice(), field_.directions, values());
-}
 
 core::Vec3 FinishedField::to_mesh(const core::Vec3& frame_point) const {
   const double step = 1 / lattice().spacing;
@@ -72,8 +63,8 @@ core::Vec3 FinishedField::in_frame(const core::LatticePlace& at) const {
 }
 
 core::Vec3 FinishedField::normal(std::uint32_t point) const {
-  const std::uint32_t direction = values()[point].direction;
-  return direction == core::FieldValue::kNoDirection ? core::Vec3{} : field_.directions[direction];
+  const std::uint32_t direction = in_frame_.direction[point];
+  return direction == core::FieldValue::kNoDirection ? core::Vec3{} : directions_[direction];
 }
 
 }  // namespace affskel::worker

@@ -40,14 +40,14 @@ class FinishedField {
   /// Between the steps of a derivation.  @throws core::CoreError kCancelled when the task is to stop.
   void throw_if_stopped() const { core::throw_if_stopped(context_); }
   const core::Lattice& lattice() const { return job_.lattice(); }
-  /// Per sample point, mesh units.
-  const std::vector<core::FieldValue>& values() const { return field_.values; }
   /// Whether its directions are those of the job's set.
-  bool over_set() const { return field_.over_set; }
+  bool over_set() const { return over_set_; }
   /// The directions that the values name as unit normals in the lattice's frame.
   const core::DirectionSet& frame_directions() const { return frame_directions_; }
-  core::OptimalDirections optimal() const;
-  core::FrameField in_frame() const;
+  /// Per sample point, by index; kNoDirection of FieldValue without one.
+  const core::OptimalDirections& optimal() const { return in_frame_.direction; }
+  /// In the frame's coordinates; E in mesh units.
+  const core::FrameField& in_frame() const { return in_frame_; }
 
   /// Mesh place of a lattice place, and of a point in the frame's coordinates.
   core::Vec3 place(const core::LatticePlace& at) const { return places_.at(at[0], at[1], at[2]); }
@@ -63,8 +63,9 @@ class FinishedField {
   const PreparedJob& job_;
   core::ExecutionContext* context_;
   unsigned threads_;
-  FieldValues field_;
-  core::DirectionSet frame_directions_;
+  bool over_set_;
+  core::FrameField in_frame_;  // what the values say, kept once
+  core::DirectionSet directions_, frame_directions_;
   core::SamplePlaces places_;
 };
 

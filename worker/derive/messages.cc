@@ -10,12 +10,11 @@ void append(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) 
 
 void append_point(const FinishedField& field, std::uint32_t point, const core::LatticePlace& place,
                   v1::SkeletonPoints& message) {
-  const core::FieldValue& value = field.values()[point];
   message.add_point(point);
   append(field.place(place), message.mutable_xyz());
-  message.add_erosion(value.erosion);
+  message.add_erosion(field.in_frame().erosion[point]);
   append(field.normal(point), message.mutable_normal());
-  if (field.over_set()) message.add_direction(value.direction);
+  if (field.over_set()) message.add_direction(field.optimal()[point]);
 }
 
 void append_values(const std::vector<core::PlaceValue>& values, v1::TriangleMesh& message) {

@@ -9,15 +9,14 @@ namespace affskel::worker {
 
 RidgeOfField::RidgeOfField(const FinishedField& field)
     : field_(field),
-      in_frame_(field.in_frame()),
-      basis_(core::ridge_basis(field.lattice(), in_frame_, field.threads(), field.context())) {}
+      basis_(core::ridge_basis(field.lattice(), field.in_frame(), field.threads(), field.context())) {}
 
 core::RidgeSheet RidgeOfField::sheet(double threshold) const {
   core::RidgeSheetOptions options;
   options.context = field_.context();
   options.bounds = ridge_bounds(threshold);
   options.basis = &basis_;
-  return core::ridge_sheet(field_.job().solid(), field_.lattice(), in_frame_, options);
+  return core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), options);
 }
 
 void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const {
@@ -42,7 +41,7 @@ void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPo
     append(field_.to_mesh(vertex.position), message.mutable_xyz());
     message.add_erosion(vertex.erosion);
     append(field_.normal(vertex.point), message.mutable_normal());
-    if (field_.over_set()) message.add_direction(in_frame_.direction[vertex.point]);
+    if (field_.over_set()) message.add_direction(field_.optimal()[vertex.point]);
     message.add_divergence(vertex.strength);
   }
 }

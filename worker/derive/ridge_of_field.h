@@ -26,7 +26,6 @@ class RidgeOfField {
 
  private:
   const FinishedField& field_;
-  const core::FrameField in_frame_;
   const core::RidgeBasis basis_;
 };
 

@@ -135,10 +135,10 @@ class Parts {
   }
 
   void add_greatest() {
-    std::uint32_t greatest = 0;
-    for (std::uint32_t p = 0; p < field_.values().size(); ++p)
-      if (field_.values()[p].erosion > field_.values()[greatest].erosion) greatest = p;
-    message_.set_greatest_erosion(field_.values()[greatest].erosion);
+    const std::vector<double>& erosion = field_.in_frame().erosion;
+    const auto greatest =
+        static_cast<std::uint32_t>(std::max_element(erosion.begin(), erosion.end()) - erosion.begin());
+    message_.set_greatest_erosion(erosion[greatest]);
     append(field_.place(core::lattice_places(field_.lattice(), {&greatest, 1})[0]),
            message_.mutable_greatest_place());
   }

@@ -43,10 +43,15 @@ class BucketQueue {
     items.clear();
     Item item;
     if (!pop(item)) return false;
-    items.push_back(std::move(item));
     std::vector<Item>& bucket = buckets_[current_];
-    for (; next_ < bucket.size(); ++next_) items.push_back(std::move(bucket[next_]));
-    bucket.clear();
+    if (next_ == 1) {  // all of it, without a copy
+      bucket.front() = std::move(item);
+      items.swap(bucket);
+    } else {
+      items.push_back(std::move(item));
+      for (; next_ < bucket.size(); ++next_) items.push_back(std::move(bucket[next_]));
+      bucket.clear();
+    }
     next_ = 0;
     return true;
   }

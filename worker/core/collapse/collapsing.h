@@ -97,28 +97,31 @@ class Collapsing {
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
     const Cell coface = coface_of(cell);  // not fixed, else the cell would be
-    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), {cell, coface});
+    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), cell);
   }
 
   // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two
-  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.
+  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.  Cofaces
+  // are found again, not kept: the queue is the largest array of a collapse.
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
     std::vector<Cell> contested;
     std::vector<std::pair<Cell, Cell>> rivals;  // coface first
-    for (std::vector<std::pair<Cell, Cell>> wave; queue_.pop_all(wave);) {
+    for (std::vector<Cell> wave; queue_.pop_all(wave);) {
       const double now = static_cast<double>(queue_.current()) * kStep;
-      std::erase_if(wave, [&](const auto& pair) { return !is_free(pair.first); });
+      std::erase_if(wave, [&](Cell cell) { return !is_free(cell); });
       contested.clear();
-      for (const auto& [cell, coface] : wave) {
+      for (const Cell cell : wave) {
+        const Cell coface = coface_of(cell);
         if ((state_[coface] & kClaimed) != 0) contested.push_back(coface);
         state_[coface] |= kClaimed;
       }
       for (const Cell coface : contested) state_[coface] &= static_cast<std::uint8_t>(~kClaimed);
       rivals.clear();
-      for (const auto& [cell, coface] : wave) {
+      for (const Cell cell : wave) {
         stop.did(100);
+        const Cell coface = coface_of(cell);
         if ((state_[coface] & kClaimed) != 0)
           remove(cell, coface, now, rules);
         else
@@ -151,7 +154,7 @@ class Collapsing {
   const DualComplex& complex_;
   ExecutionContext* context_;
   std::vector<std::uint8_t> state_;  // by a cell's name: these, and how many cofaces it has
-  BucketQueue<std::pair<Cell, Cell>> queue_;
+  BucketQueue<Cell> queue_;          // free when they came
 };
 
 }  // namespace affskel::core

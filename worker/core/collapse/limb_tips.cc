@@ -25,12 +25,11 @@ class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
            double least_reach)
-      : complex_(complex), depth_(depth), least_reach_(least_reach) {
-    const double slight = 1e-3 / *std::max_element(height.begin(), height.end());
-    level_.reserve(depth.size());
-    for (std::size_t cube = 0; cube < depth.size(); ++cube)
-      level_.push_back(static_cast<double>(depth[cube]) + slight * height[cube]);
-  }
+      : complex_(complex),
+        depth_(depth),
+        height_(height),
+        slight_(1e-3 / *std::max_element(height.begin(), height.end())),
+        least_reach_(least_reach) {}
 
   std::vector<LimbTip> tips() const {
     std::vector<LimbTip> result;
@@ -46,7 +45,9 @@ class Thinning {
 
   // Depths before heights: a line that heights led would run to where E is great, not along its limb.
   double level(Cell cell) const {
-    return value_at(complex_, cell, [&](std::uint32_t cube) { return level_[cube]; });
+    return value_at(complex_, cell, [&](std::uint32_t cube) {
+      return static_cast<double>(depth_[cube]) + slight_ * height_[cube];
+    });
   }
 
   void bared(Cell cell, double now) {
@@ -142,7 +143,8 @@ class Thinning {
 
   const DualComplex& complex_;
   std::span<const float> depth_;
-  std::vector<double> level_;  // per cube: its depth and, slightly, its height
+  std::span<const double> height_;
+  double slight_;
   double least_reach_;
   std::vector<Line> lines_;
   CellValues<float> birth_{complex_, 1, 0};                             // of lone edges

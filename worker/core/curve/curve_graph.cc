@@ -21,16 +21,13 @@ constexpr double kStretch = 4;
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
 
-// Of two limbs that weigh about as much, neither is a part of the other's.
-constexpr double kMuchHeavier = 2;
-
 constexpr std::uint32_t kNoBranch = std::numeric_limits<std::uint32_t>::max();
 
 class GraphOfCurve {
  public:
   GraphOfCurve(std::span<const Vec3> places, std::span<const Segment> segments,
-               std::span<const double> radius, std::span<const double> ball, std::span<const double> share)
-      : places_(places), radius_(radius), ball_(ball), share_(share), ends_(places.size(), 0) {
+               std::span<const double> radius, std::span<const double> share)
+      : places_(places), radius_(radius), share_(share), ends_(places.size(), 0) {
     for (auto& line : polylines(places.size(), segments)) add(std::move(line));
     std::vector<char> used(places.size(), 0);
     for (const CurveBranch& branch : graph_.branches)
@@ -71,6 +68,7 @@ class GraphOfCurve {
     return n > 0 && n + 1 < branch.vertices.size();
   }
 
+  // Where branches meet the heaviest has the vertex, and what of the others from there on has no share.
   void give_vertices() {
     std::vector<double> within(graph_.branches.size(), 0);
     graph_.part.assign(places_.size(), kNoBranch);
@@ -85,9 +83,17 @@ class GraphOfCurve {
       if (owner == kNoBranch || within[b] > within[owner]) owner = b;
     });
     const std::vector<std::uint32_t> owner = graph_.part;
+    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
+      for (const bool from_last : {false, true}) give_joint(b, from_last, owner);
     for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
-    give_joints(owner, within);
-    give_links(owner);
+  }
+
+  void give_joint(std::uint32_t b, bool from_last, std::span<const std::uint32_t> owner) {
+    const auto& vertices = graph_.branches[b].vertices;
+    const auto at = [&](std::size_t n) { return vertices[from_last ? vertices.size() - 1 - n : n]; };
+    if (ends_[at(0)] < 3) return;
+    for (std::size_t n = 1; n + 1 < vertices.size() && share_[at(n)] == 0; ++n)
+      graph_.part[at(n)] = owner[at(0)];
   }
 
   template <class Visit>
@@ -95,80 +101,6 @@ class GraphOfCurve {
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
       for (std::size_t n = 0; n < graph_.branches[b].vertices.size(); ++n)
         visit(b, graph_.branches[b].vertices[n], is_within(graph_.branches[b], n));
-  }
-
-  // A limb begins where it leaves the balls of the branch that its joint belongs to, and of others there that are much
-  // heavier: both halves of a trunk.
-  void give_joints(const std::vector<std::uint32_t>& owner, const std::vector<double>& within) {
-    std::vector<std::vector<std::uint32_t>> at_joint(places_.size());
-    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
-      for (const std::uint32_t v : {graph_.branches[b].vertices.front(), graph_.branches[b].vertices.back()})
-        at_joint[v].push_back(b);
-    for (std::uint32_t b = 0; b < graph_.branches.size(); ++b) {
-      for (const bool from_last : {false, true}) {
-        const auto& vertices = graph_.branches[b].vertices;
-        const std::uint32_t joint = from_last ? vertices.back() : vertices.front();
-        if (owner[joint] == b) continue;
-        std::vector<std::uint32_t> heavier{owner[joint]};
-        for (const std::uint32_t other : at_joint[joint])
-          if (other != owner[joint] && within[other] > kMuchHeavier * within[b]) heavier.push_back(other);
-        give_joint(b, from_last, heavier);
-      }
-    }
-  }
-
-  // How deep a place lies in the balls of a branch; below 0 outside.
-  double depth_in(std::uint32_t branch, const Vec3& at) const {
-    double depth = -std::numeric_limits<double>::infinity();
-    for (const std::uint32_t v : graph_.branches[branch].vertices)
-      depth = std::max(depth, ball_[v] - norm(places_[v] - at));
-    return depth;
-  }
-
-  void give_joint(std::uint32_t b, bool from_last, const std::vector<std::uint32_t>& heavier) {
-    const auto& vertices = graph_.branches[b].vertices;
-    const auto at = [&](std::size_t n) { return vertices[from_last ? vertices.size() - 1 - n : n]; };
-    std::uint32_t to = heavier.front();
-    double before = depth_in(to, places_[at(0)]);
-    for (std::size_t n = 1; n + 1 < vertices.size() && graph_.part[at(n)] == b; ++n) {
-      double depth = -std::numeric_limits<double>::infinity();
-      std::uint32_t deepest = to;
-      for (const std::uint32_t other : heavier) {
-        const double there = depth_in(other, places_[at(n)]);
-        if (there <= depth) continue;
-        depth = there;
-        deepest = other;
-      }
-      if (depth <= 0) {
-        // A vertex stands for half of the way to the next on either side.
-        const double inside = before > 0 ? before / (before - depth) : 0;
-        if (inside < 0.5 && n > 1) move_share(at(n - 1), to, b, 0.5 - inside);
-        if (inside > 0.5) move_share(at(n), b, to, inside - 0.5);
-        break;
-      }
-      to = deepest;
-      graph_.part[at(n)] = to;
-      move_share(at(n), b, to, 1);
-      before = depth;
-    }
-  }
-
-  // What no vertex is left of is a part of its neighbour.
-  void give_links(const std::vector<std::uint32_t>& owner) {
-    std::vector<char> has_own(graph_.branches.size(), 0);
-    for (const std::uint32_t b : graph_.part) has_own[b] = 1;
-    for (std::uint32_t b = 0; b < has_own.size(); ++b) {
-      CurveBranch& branch = graph_.branches[b];
-      if (has_own[b]) continue;
-      graph_.branches[owner[branch.vertices.front()]].share += branch.share;
-      branch.share = 0;
-    }
-  }
-
-  // Of a vertex, a part of its share, from one branch to another.
-  void move_share(std::uint32_t v, std::uint32_t from, std::uint32_t to, double part) {
-    graph_.branches[from].share -= part * share_[v];
-    graph_.branches[to].share += part * share_[v];
   }
 
   Vec3 mean_place(const CurveBranch& branch) const {
@@ -330,7 +262,7 @@ class GraphOfCurve {
   }
 
   std::span<const Vec3> places_;
-  std::span<const double> radius_, ball_, share_;
+  std::span<const double> radius_, share_;
   std::vector<std::uint32_t> ends_;  // of branches, per vertex
   Groups<std::uint32_t> at_vertex_;  // branches that begin or end there, in their order
   CurveGraph graph_;
@@ -339,9 +271,8 @@ class GraphOfCurve {
 }  // namespace
 
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
-                       std::span<const double> radius, std::span<const double> ball,
-                       std::span<const double> share) {
-  return GraphOfCurve(places, segments, radius, ball, share).run();
+                       std::span<const double> radius, std::span<const double> share) {
+  return GraphOfCurve(places, segments, radius, share).run();
 }
 
 }  // namespace affskel::core

@@ -38,18 +38,16 @@ struct CurveGraph {
   /// the order of their mean places, along the axis in which these are farthest apart: the two arms of a body do not
   /// change places with noise.
   std::vector<CurveBranch> branches;
-  /// Per vertex: its branch; where some meet, the heaviest, which also takes what lies in the largest balls about its own
-  /// vertices: a limb begins where it leaves the trunk, between two vertices, whose shares are parted there.
+  /// Per vertex: its branch; where some meet, the heaviest, which also has what of the others has no share from there on: a
+  /// limb begins where it leaves the trunk, see LimbTubes.
   std::vector<std::uint32_t> part;
 
   static constexpr double kAboutEqual = 0.95;
 };
 
 /// A point is a branch of its own, of one vertex.
-/// @param places, radius, ball, share per vertex: see limb_radii(), distance to the surface, of the volume;
-///   segments as for polylines().
+/// @param places, radius, share per vertex: see limb_radii(), CurveSkeleton::share; segments as for polylines().
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
-                       std::span<const double> radius, std::span<const double> ball,
-                       std::span<const double> share);
+                       std::span<const double> radius, std::span<const double> share);
 
 }  // namespace affskel::core

@@ -14,8 +14,11 @@
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"
 #include "core/curve/joined_links.h"
+#include "core/curve/limb_radii.h"
+#include "core/curve/limb_tubes.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
+#include "core/curve/zipped_lines.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
 #include "core/ridge/row_band.h"
@@ -144,10 +147,11 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
     if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
 }
 
-SheetLines with_joints(const RidgeSheet& ridge, std::span<const double> balls, const SheetLines& lines) {
-  std::vector<Vec3> places;
-  for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
-  return joined_links(lines, places, balls);
+// @param places per vertex of the ridge.
+SheetLines with_joints(const SheetLines& lines, std::span<const char> ends, std::span<const double> balls,
+                       double spacing, std::vector<Vec3>& places) {
+  const SheetLines zipped = zipped_lines(joined_links(lines, places, balls), ends, balls, spacing, places);
+  return joined_links(zipped, places, balls);
 }
 
 // In the frame's coordinates.
@@ -173,27 +177,21 @@ void move_to_middle(const Solid& solid, const Lattice& lattice, const LimbEnds& 
 }
 
 // The line has moved since: each point goes on along it to the vertex that is nearest now, as far as that comes nearer.
-void move_points(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
-  const Groups<std::uint32_t> neighbours = neighbours_along(curve.vertices.size(), curve.segments);
-  StopCheck stop(context);
-  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-    stop.did(10);
-    const Vec3 at = lattice.spacing * Vec3{double(i), double(j), double(k)};
-    const auto distance = [&](std::uint32_t v) { return norm(curve.vertices[v].position - at); };
-    std::uint32_t& nearest = curve.nearest[rank];
-    double least = distance(nearest);
-    for (bool moved = true; moved;) {
-      moved = false;
-      for (const std::uint32_t to : neighbours[nearest]) {
-        const double way = distance(to);
-        if (way >= least) continue;
-        least = way;
-        nearest = to;
-        moved = true;
-        break;
-      }
+std::uint32_t moved(std::span<const Vec3> places, const Groups<std::uint32_t>& neighbours, const Vec3& at,
+                    std::uint32_t nearest) {
+  double least = norm(places[nearest] - at);
+  for (bool moves = true; moves;) {
+    moves = false;
+    for (const std::uint32_t to : neighbours[nearest]) {
+      const double way = norm(places[to] - at);
+      if (way >= least) continue;
+      least = way;
+      nearest = to;
+      moves = true;
+      break;
     }
-  });
+  }
+  return nearest;
 }
 
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
@@ -205,12 +203,36 @@ void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& c
   for (Opening& opening : curve.opened) opening.distance = distance(opening.place);
 }
 
-void measure(const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
+void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
   give_the_rest(lattice, curve);
-  move_points(lattice, curve, context);
-  curve.share.assign(curve.vertices.size(), 0);
-  for (const std::uint32_t vertex : curve.nearest)
-    curve.share[vertex] += 1 / static_cast<double>(lattice.points);
+  const auto mesh_place = [&](const Vec3& at) {
+    return solid.centre + solid.scale() * scaled_place(lattice, (1 / lattice.spacing) * at);
+  };
+  std::vector<Vec3> places, in_mesh;
+  for (const SheetVertex& vertex : curve.vertices) {
+    places.push_back(vertex.position);
+    in_mesh.push_back(mesh_place(vertex.position));
+  }
+  const Groups<std::uint32_t> neighbours = neighbours_along(places.size(), curve.segments);
+  const double one = 1 / static_cast<double>(lattice.points);
+  const auto for_each = [&](const auto& vertex_of) {  // what a point has, by what it had
+    StopCheck stop(context);
+    std::vector<double> share(places.size(), 0);
+    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      stop.did(10);
+      std::uint32_t& vertex = curve.nearest[rank];
+      vertex = vertex_of(lattice.spacing * Vec3{double(i), double(j), double(k)}, vertex);
+      share[vertex] += one;
+    });
+    return share;
+  };
+  curve.slice =
+      for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, neighbours, at, nearest); });
+  const std::vector<double> radius =
+      limb_radii({in_mesh, curve.segments, curve.slice, curve.slice, curve.distance, solid.volume});
+  const LimbTubes tubes(in_mesh, curve.segments, curve.distance, radius);
+  curve.share = for_each(
+      [&](const Vec3& at, std::uint32_t nearest) { return tubes.vertex_of(mesh_place(at), nearest); });
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 
@@ -228,13 +250,17 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
   SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
   add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
-  lines = with_joints(ridge, balls, sheet_lines(ridge, ends.is_end, options.context));
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
+  lines = with_joints(sheet_lines(ridge, ends.is_end, options.context), ends.is_end, balls, lattice.spacing,
+                      places);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
   curve.segments = std::move(lines.segments);
   for (const std::uint32_t v : lines.vertices) {
     curve.vertices.push_back(ridge.vertices[v]);
+    curve.vertices.back().position = places[v];
     curve.part.push_back(ridge.part[v]);
   }
   move_to_middle(solid, lattice, ends, lines.vertices, curve, options.context);
@@ -253,7 +279,7 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   auto [curve, lines] = drawn(solid, lattice, basis, ridge, options);
   give_points(basis, ridge, lines, curve, options.context);
   find_distances(solid, lattice, curve);
-  measure(lattice, curve, options.context);
+  measure(solid, lattice, curve, options.context);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
   std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
   for (const Segment& segment : curve.segments)

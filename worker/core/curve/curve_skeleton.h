@@ -29,9 +29,11 @@ struct Opening {
 /// Lines through the limbs of a solid: vertices and segments, no triangle.
 struct CurveSkeleton : SheetMesh {
   std::vector<double> distance;  ///< per vertex: to the surface of the solid, mesh units
-  std::vector<double> share;     ///< per vertex: of all sample points, those of `nearest`; adds up to 1
-  std::vector<double> beyond;    ///< per vertex: share of all sample points; see volume_beyond()
-  /// Per sample point: a vertex, see realms(); of a fragment, where no way leads, the nearest.
+  std::vector<double> slice;  ///< per vertex: of all sample points, those that it is nearest to; adds up to 1
+  std::vector<double> share;  ///< per vertex: of all sample points, those of `nearest`; adds up to 1
+  std::vector<double> beyond;  ///< per vertex: share of all sample points; see volume_beyond()
+  /// Per sample point: the vertex that it belongs to, see realms(), and LimbTubes where limbs meet; of a fragment, where no
+  /// way leads, the nearest.
   std::vector<std::uint32_t> nearest;
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone

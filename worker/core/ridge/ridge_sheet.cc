@@ -152,13 +152,14 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const SolidParts parts(solid, lattice);
   const Mesh walls = mesh_in_lattice(solid, lattice);
   const DistanceToMesh nearest(walls);
-  const Found found = find_ridges(lattice, field, basis, nearest, options, constants);
+  Found found = find_ridges(lattice, field, basis, nearest, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
   edges.reserve(found.crossings.size());
   for (const RidgeCrossing& crossing : found.crossings) edges.push_back(crossing.edge);
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
+  std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
   const RidgeEvidence evidence{.complex = basis.complex,
                                .parts = parts,
                                .field = field,

@@ -229,12 +229,13 @@ double width_of(const PointDerivatives& point, const RidgeConstants& constants) 
 }
 
 // Per point: how far the wider of its Gaussians reaches.
-std::vector<std::uint8_t> reaches(const std::vector<PointDerivatives>& points,
-                                  const std::vector<double>& ladder, const RidgeConstants& constants) {
+std::vector<std::uint8_t> reaches(const std::vector<float>& depth, const std::vector<double>& ladder,
+                                  const RidgeConstants& constants) {
   std::vector<std::uint8_t> result;
-  result.reserve(points.size());
-  for (const PointDerivatives& point : points) {
-    const auto wider = std::lower_bound(ladder.begin(), ladder.end(), width_of(point, constants));
+  result.reserve(depth.size());
+  for (const float d : depth) {
+    const auto wider =
+        std::lower_bound(ladder.begin(), ladder.end(), constants.width_at(static_cast<double>(d)));
     result.push_back(static_cast<std::uint8_t>(reach_of(wider == ladder.end() ? ladder.back() : *wider)));
   }
   return result;
@@ -245,26 +246,26 @@ std::vector<std::uint8_t> reaches(const std::vector<PointDerivatives>& points,
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
                                                    ExecutionContext* context,
                                                    const RidgeConstants& constants) {
-  std::vector<PointDerivatives> result(field.erosion.size());
+  const std::vector<float> depth = local_depth(lattice, field);
   double widest = constants.min_width;
-  {
-    const std::vector<float> depth = local_depth(lattice, field);
-    for (std::size_t p = 0; p < result.size(); ++p) {
-      result[p].depth = depth[p];
-      widest = std::max(widest, width_of(result[p], constants));
-    }
-  }
+  for (const float d : depth) widest = std::max(widest, constants.width_at(static_cast<double>(d)));
   throw_if_stopped(context);
   std::vector<double> ladder{constants.min_width};
   while (ladder.back() < widest)
     ladder.push_back(std::min(ladder.back() * kLadderFactor, constants.max_width));
+  std::vector<float> value(depth.size());
   const ContinuedField continued = [&] {
     const ScaledField scaled(field);
-    for (std::size_t p = 0; p < result.size(); ++p) result[p].value = static_cast<float>(scaled.values()[p]);
+    for (std::size_t p = 0; p < value.size(); ++p) value[p] = static_cast<float>(scaled.values()[p]);
     return continued_field(
         lattice, scaled.values(), [&](std::uint32_t p) { return scaled.gradient(p); },
-        reaches(result, ladder, constants));
+        reaches(depth, ladder, constants));
   }();
+  std::vector<PointDerivatives> result(depth.size());  // not before: eleven numbers a point
+  for (std::size_t p = 0; p < result.size(); ++p) {
+    result[p].depth = depth[p];
+    result[p].value = value[p];
+  }
   std::vector<float> weight(result.size());
   for (std::size_t step = 0; step < ladder.size(); ++step) {
     throw_if_stopped(context);

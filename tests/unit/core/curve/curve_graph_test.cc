@@ -28,7 +28,7 @@ class Lines {
 
   CurveGraph graph() const {
     return curve_graph(places, segments, std::vector<double>(places.size(), radius),
-                       std::vector<double>(places.size(), ball), share.empty() ? even() : share);
+                       share.empty() ? even() : share);
   }
 
   std::vector<double> even() const {
@@ -38,7 +38,7 @@ class Lines {
   std::vector<Vec3> places;
   std::vector<Segment> segments;
   std::vector<double> share;
-  double radius = 0.1, ball = 0;
+  double radius = 0.1;
 
  private:
   std::uint32_t add(const Vec3& at) {
@@ -92,44 +92,44 @@ TEST(CurveGraph, BranchesAboutEqualAreInTheOrderOfTheirPlaces) {
   }
 }
 
-TEST(CurveGraph, TheTrunkTakesWhatLiesInTheBallAboutAJoint) {
+// What of a limb has no share, from its joint on, belongs to the branch that has the joint.
+TEST(CurveGraph, ALimbBeginsWhereItHasAShare) {
   Lines lines = body();
-  lines.ball = 2.5;
+  lines.share = lines.even();
+  for (std::size_t v = 0; v < lines.places.size(); ++v) {
+    const Vec3& at = lines.places[v];
+    if (std::abs(at.x) > 0 && std::abs(at.x) < 3) lines.share[v] = 0;
+  }
   const CurveGraph graph = lines.graph();
   for (std::size_t v = 0; v < lines.places.size(); ++v) {
     const Vec3& at = lines.places[v];
-    if (at.y != 0) continue;  // at the foot, see below
-    const double out = std::max(std::abs(at.x), at.z - 20);
-    EXPECT_EQ(graph.part[v] == 0, out < 2.5 && at.z != 22) << at.x << " " << at.z;
+    if (at.z == 20) {
+      EXPECT_EQ(graph.part[v] == 0, std::abs(at.x) < 3) << at.x;
+    }
   }
-  // A line that lies within, whole, keeps its end alone.
-  const auto neck = std::find_if(graph.branches.begin(), graph.branches.end(),
-                                 [](const CurveBranch& branch) { return branch.length == 2; });
-  ASSERT_NE(neck, graph.branches.end());
-  EXPECT_NEAR(neck->share, 1 / static_cast<double>(lines.places.size()), 1e-12);
-  double sum = 0;
-  for (const CurveBranch& branch : graph.branches) sum += branch.share;
-  EXPECT_NEAR(sum, 1, 1e-12);
+  for (const CurveBranch& branch : graph.branches) {
+    double sum = 0;
+    for (std::size_t v = 0; v < lines.places.size(); ++v)
+      if (&graph.branches[graph.part[v]] == &branch) sum += lines.share[v];
+    EXPECT_NEAR(branch.share, sum, 1e-12);
+  }
 }
 
-// From the top of a trunk a link of two steps to a fork: within the ball about the top it is no part.
-TEST(CurveGraph, ALinkWithinAJointHasNoShareAndComesLast) {
-  for (const double ball : {0.5, 2.5}) {
-    Lines lines;
-    const std::uint32_t top = lines.go(lines.begin({0, 0, 0}), {0, 0, 1}, 20);
-    lines.go(top, {1, 0, 0}, 9);
-    const std::uint32_t fork = lines.go(top, {0, 1, 0}, 2);
-    for (const double x : {-1., 1.}) lines.go(fork, {x, 0, 0}, 6);
-    lines.ball = ball;
-    const CurveGraph graph = lines.graph();
-    ASSERT_EQ(graph.branches.size(), 5U);
-    double sum = 0;
-    for (const CurveBranch& branch : graph.branches) sum += branch.share;
-    EXPECT_NEAR(sum, 1, 1e-12);
-    EXPECT_EQ(graph.branches[4].kind, BranchKind::kLink);
-    EXPECT_EQ(graph.branches[4].share > 0, ball < 1);
-    EXPECT_EQ(std::count(graph.part.begin(), graph.part.end(), 4U) > 0, ball < 1);
-  }
+// From the top of a trunk a link to a fork: without a share it is no part.
+TEST(CurveGraph, ALinkWithoutAShareComesLast) {
+  Lines lines;
+  const std::uint32_t top = lines.go(lines.begin({0, 0, 0}), {0, 0, 1}, 20);
+  lines.go(top, {1, 0, 0}, 9);
+  const std::uint32_t fork = lines.go(top, {0, 1, 0}, 3);
+  for (const double x : {-1., 1.}) lines.go(fork, {x, 0, 0}, 6);
+  lines.share = lines.even();
+  for (std::size_t v = 0; v < lines.places.size(); ++v)
+    if (lines.places[v].y == 1 || lines.places[v].y == 2) lines.share[v] = 0;
+  const CurveGraph graph = lines.graph();
+  ASSERT_EQ(graph.branches.size(), 5U);
+  EXPECT_EQ(graph.branches[4].kind, BranchKind::kLink);
+  EXPECT_EQ(graph.branches[4].share, 0);
+  EXPECT_EQ(std::count(graph.part.begin(), graph.part.end(), 4U), 0);
 }
 
 TEST(CurveGraph, AnglesAreToTheFirstOtherBranch) {

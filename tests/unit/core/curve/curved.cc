@@ -24,8 +24,8 @@ CurveGraph Curved::graph(const CurveSkeleton& curve) const {
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : curve.vertices) places.push_back(place(vertex));
   const std::vector<double> radius =
-      limb_radii({places, curve.segments, curve.share, curve.distance, solid_.solid.volume});
-  return curve_graph(places, curve.segments, radius, curve.distance, curve.share);
+      limb_radii({places, curve.segments, curve.share, curve.slice, curve.distance, solid_.solid.volume});
+  return curve_graph(places, curve.segments, radius, curve.share);
 }
 
 }  // namespace affskel::core

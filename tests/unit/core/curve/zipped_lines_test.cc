@@ -1,0 +1,131 @@
+#include "core/curve/zipped_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "core/mesh/polylines.h"
+
+namespace affskel::core {
+namespace {
+
+// Lines from a place outwards, in steps.
+struct Strands {
+  std::vector<Vec3> places;
+  std::vector<double> ball;
+  std::vector<char> ends;
+  SheetLines lines;
+
+  std::uint32_t add(const Vec3& at, double thick) {
+    places.push_back(at);
+    ball.push_back(thick);
+    ends.push_back(0);
+    lines.vertices.push_back(static_cast<std::uint32_t>(places.size() - 1));
+    return lines.vertices.back();
+  }
+  void join(std::uint32_t a, std::uint32_t b) { lines.segments.push_back({std::min(a, b), std::max(a, b)}); }
+  // @returns the last vertex.
+  std::uint32_t go(std::uint32_t from, const Vec3& step, int steps, double thick) {
+    for (int n = 0; n < steps; ++n) {
+      const std::uint32_t to = add(places[from] + step, thick);
+      join(from, to);
+      from = to;
+    }
+    return from;
+  }
+  SheetLines zipped() {
+    std::sort(lines.segments.begin(), lines.segments.end());
+    return zipped_lines(lines, ends, ball, 0.1, places);
+  }
+};
+
+// Places of the joints, by how many lines meet there.
+std::multimap<std::size_t, Vec3> nodes(const Strands& strands, const SheetLines& lines) {
+  std::vector<std::size_t> degree(lines.vertices.size(), 0);
+  for (const Segment& segment : lines.segments)
+    for (const std::uint32_t v : segment) ++degree[v];
+  std::multimap<std::size_t, Vec3> result;
+  for (std::size_t v = 0; v < degree.size(); ++v)
+    if (degree[v] != 2) result.emplace(degree[v], strands.places[lines.vertices[v]]);
+  return result;
+}
+
+std::int64_t euler(const SheetLines& lines) {
+  return static_cast<std::int64_t>(lines.vertices.size()) - static_cast<std::int64_t>(lines.segments.size());
+}
+
+// A trunk of radius 1 along x, and two legs whose lines run in it from x = 0 to the hips at x = 4.
+Strands body(double apart) {
+  Strands body;
+  const std::uint32_t joint = body.add({0, 0, 0}, 1);
+  body.ends[body.go(joint, {-0.1, 0, 0}, 60, 1)] = 1;
+  body.ends[body.go(joint, {0.1, 0, 0}, 60, 1)] = 1;
+  for (const double side : {-1., 1.}) {
+    const std::uint32_t hip = body.go(joint, {0.1, side * apart / 40, 0}, 40, 0.95);
+    body.ends[body.go(hip, {0, side * 0.04, -0.1}, 60, 0.4)] = 1;
+  }
+  return body;
+}
+
+TEST(ZippedLines, LegsLeaveTheSpineWhereTheyPartFromIt) {
+  Strands strands = body(0.5);
+  const SheetLines lines = strands.zipped();
+  EXPECT_EQ(euler(lines), 1);
+  const auto found = nodes(strands, lines);
+  EXPECT_EQ(found.count(1), 4U);
+  for (const auto& [degree, at] : found) {
+    if (degree == 1) continue;
+    EXPECT_NEAR(at.x, 4, 0.5);
+    EXPECT_EQ(at.y, 0) << "the thinner line slides";
+  }
+}
+
+TEST(ZippedLines, WhatPartsWithinTheJointStays) {
+  Strands strands = body(8);
+  const SheetLines lines = strands.zipped();
+  EXPECT_EQ(lines.segments, strands.lines.segments);
+  EXPECT_EQ(lines.vertices, strands.lines.vertices);
+}
+
+// A jar's three strands from a place deep in its belly: to the neck, and to both handles, which lead there, too.
+TEST(ZippedLines, HandlesKeepTheirTunnelsAndLeaveNoStub) {
+  Strands jar;
+  const std::uint32_t deep = jar.add({0, 0, 0}, 1);
+  const std::uint32_t neck = jar.go(deep, {0, 0, 0.1}, 40, 1);
+  for (const double side : {-1., 1.}) {
+    const std::uint32_t shoulder = jar.go(deep, {side * 0.01, 0, 0.1}, 25, 0.9);
+    const std::uint32_t out = jar.go(shoulder, {side * 0.1, 0, 0}, 25, 0.2);
+    const std::uint32_t up = jar.go(out, {0, 0, 0.1}, 14, 0.2);
+    const std::uint32_t last = jar.go(up, {side * -0.1, 0, 0}, 26, 0.2);
+    jar.join(last, neck);
+  }
+  const SheetLines lines = jar.zipped();
+  EXPECT_EQ(euler(lines), -1) << "two tunnels";
+  const auto found = nodes(jar, lines);
+  EXPECT_EQ(found.count(1), 0U);
+  for (const auto& [degree, at] : found) EXPECT_GT(at.z, 1.5);
+  EXPECT_EQ(jar.zipped().segments.size(), lines.segments.size()) << "the same again";
+}
+
+// Two lines between the same joints enclose a tunnel of the lattice, however near they lie: it stays.
+TEST(ZippedLines, ALoopIsNotClosed) {
+  Strands loop;
+  const std::uint32_t low = loop.add({0, 0, 0}, 1);
+  const std::uint32_t high = loop.go(low, {0, 0, 0.1}, 40, 1);
+  const std::uint32_t beside = loop.go(loop.go(low, {0.2, 0, 0.1}, 1, 0.9), {0, 0, 0.1}, 38, 0.9);
+  loop.join(beside, high);
+  loop.ends[loop.go(low, {0, 0, -0.1}, 20, 1)] = 1;
+  loop.ends[loop.go(high, {0, 0, 0.1}, 20, 1)] = 1;
+  const SheetLines lines = loop.zipped();
+  EXPECT_EQ(euler(lines), 0);
+  EXPECT_EQ(polylines(lines.vertices.size(), lines.segments).size(), 4U);
+  std::vector<Segment> once = lines.segments;
+  once.erase(std::unique(once.begin(), once.end()), once.end());
+  EXPECT_EQ(once.size(), lines.segments.size());
+}
+
+}  // namespace
+}  // namespace affskel::core
