@@ -126,9 +126,11 @@ std::uint32_t LimbTubes::holder(const std::array<std::vector<std::uint32_t>, 2>&
   return kNone;
 }
 
-std::uint32_t LimbTubes::nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at) const {
+// Joints left out; where there is nothing else, what was nearest before.
+std::uint32_t LimbTubes::nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at,
+                                    std::uint32_t before) const {
   double least = kUnreached;
-  std::uint32_t nearest = kNone;
+  std::uint32_t nearest = before;
   for (const std::uint32_t v : vertices) {
     const Vec3 way = at - places_[v];
     if (is_joint(v) || dot(way, way) >= least) continue;
@@ -146,20 +148,19 @@ std::uint32_t LimbTubes::off_joint(std::uint32_t vertex, const Vec3& at) const {
     if (line.front() == vertex) next.push_back(line[1]);
     if (line.back() == vertex) next.push_back(line[line.size() - 2]);
   }
-  const std::uint32_t nearest = nearest_of(next, at);
-  return nearest == kNone ? vertex : nearest;
+  return nearest_of(next, at, vertex);
 }
 
 std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const {
   if (is_joint(nearest)) nearest = off_joint(nearest, at);
   if (limb_of_[nearest] == kNone) return nearest;
   const Limb& limb = limbs_[limb_of_[nearest]];
-  if (limb.within != kNone) return nearest_of(limbs_[limb.within].vertices, at);
+  if (limb.within != kNone) return nearest_of(limbs_[limb.within].vertices, at, nearest);
   if (const std::uint32_t thicker = holder(limb.thicker, at); thicker != kNone)
-    return nearest_of(limbs_[thicker].vertices, at);
+    return nearest_of(limbs_[thicker].vertices, at, nearest);
   std::uint32_t owner = holder(limb.others, at);
   if (owner == kNone) owner = in_thicker_[nearest];
-  return owner == kNone || holds(limb, at) ? nearest : nearest_of(limbs_[owner].vertices, at);
+  return owner == kNone || holds(limb, at) ? nearest : nearest_of(limbs_[owner].vertices, at, nearest);
 }
 
 }  // namespace affskel::core

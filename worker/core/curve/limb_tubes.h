@@ -54,7 +54,8 @@ class LimbTubes {
   void find_within(Limb& limb) const;
   bool holds(const Limb& limb, const Vec3& at) const;
   std::uint32_t holder(const std::array<std::vector<std::uint32_t>, 2>& limbs, const Vec3& at) const;
-  std::uint32_t nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at) const;
+  std::uint32_t nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at,
+                           std::uint32_t before) const;
   std::uint32_t off_joint(std::uint32_t vertex, const Vec3& at) const;
 
   std::span<const Vec3> places_;

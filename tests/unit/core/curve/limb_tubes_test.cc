@@ -70,6 +70,18 @@ TEST(LimbTubes, ATrunkEndsInARoundEndWhereItsLimbsBegin) {
   }
 }
 
+// The link is the thickest of all, and has no vertex that is no joint.
+TEST(LimbTubes, ALinkOfTwoJointsHasNothing) {
+  Tubed lines;
+  const std::uint32_t one = lines.add({0, 0, 0}, 3), other = lines.add({0.1, 0, 0}, 3);
+  lines.segments.push_back({one, other});
+  for (const double side : {-1., 1.}) {
+    lines.go(one, {-0.1, 0.1 * side, 0}, 60, 0.5);
+    lines.go(other, {0.1, 0.1 * side, 0}, 60, 0.5);
+  }
+  for (const Vec3& at : lines.places) EXPECT_GT(norm(lines.owner(at) - Vec3{0.05, 0, 0}), 0.06);
+}
+
 TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {
   Tubed lines;
   const std::uint32_t joint = lines.add({0, 0, 0}, 1.5);
