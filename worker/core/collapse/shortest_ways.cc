@@ -13,27 +13,30 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
                                  std::span<const float> cost, ExecutionContext* context) {
   constexpr float kBuckets = 8;  // per spacing of cost 1
   std::vector<float> way(complex.cubes(), kNoWay);
-  BucketQueue<std::pair<float, std::uint32_t>> front;
-  for (const Anchor& anchor : anchors) {
-    for (const auto& member : complex.star(anchor.cell)) {
-      if (way[member.cube] == 0) continue;
-      way[member.cube] = 0;
-      front.push(0, {0.0F, member.cube});
-    }
-  }
   const auto cost_at = [&](std::uint32_t cube) { return cost.empty() ? 1.0F : cost[cube]; };
   StopCheck stop(context);
-  for (std::pair<float, std::uint32_t> at; front.pop(at); stop.did(100)) {
-    const float reached = at.first;
-    const std::uint32_t cube = at.second;
-    if (reached > way[cube]) continue;
-    const float cost_here = cost_at(cube);
-    complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
-      const float there = reached + 0.5F * (cost_here + cost_at(to)) * kStepLength[steps];
-      if (there >= way[to]) return;
-      way[to] = there;
-      front.push(static_cast<std::size_t>(there * kBuckets), {there, to});
-    });
+  for (const bool from_vertices : {false, true}) {
+    BucketQueue<std::pair<float, std::uint32_t>> front;
+    for (const Anchor& anchor : anchors) {
+      if ((DualComplex::dimension(anchor.cell) == 0) != from_vertices) continue;
+      for (const auto& member : complex.star(anchor.cell)) {
+        if (way[member.cube] != kNoWay) continue;
+        way[member.cube] = 0;
+        front.push(0, {0.0F, member.cube});
+      }
+    }
+    for (std::pair<float, std::uint32_t> at; front.pop(at); stop.did(100)) {
+      const float reached = at.first;
+      const std::uint32_t cube = at.second;
+      if (reached > way[cube]) continue;
+      const float cost_here = cost_at(cube);
+      complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
+        const float there = reached + 0.5F * (cost_here + cost_at(to)) * kStepLength[steps];
+        if (there >= way[to]) return;
+        way[to] = there;
+        front.push(static_cast<std::size_t>(there * kBuckets), {there, to});
+      });
+    }
   }
   return way;
 }

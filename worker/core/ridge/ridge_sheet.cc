@@ -70,8 +70,9 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCel
   return dual_contour(lattice, parts, cells, places, mean, context);
 }
 
-// A way costs a hundred times as much as in the middle at most, so that the queue of ways stays short.
-constexpr double kLeastEase = 0.01;
+// A way costs a thousand times as much as in the middle at most, so that the queue of ways stays short.  At a hundred
+// times hands cost alike all through, and the lattice's order led the line.
+constexpr double kLeastEase = 0.001;
 
 // What a way costs for each spacing of its length: little in the middle of the solid, where E and the distance
 // to the surface are large.

@@ -44,7 +44,7 @@ class Placing {
     throw_if_stopped(context);
     draw_rims();
     even_out(rim_neighbours_, fixed_on_rim(), kRimPasses, false, context);
-    even_out(neighbours_, fixed_of_free(), kFreePasses, true, context);
+    even_out(neighbours_, bound_, kFreePasses, true, context);
     even_out(neighbours_, fixed_on_lines(), kLinePasses, false, context);
     take_values();
     make_faces();
@@ -65,19 +65,6 @@ class Placing {
     }
     place_surface();
     place_curves();
-  }
-
-  // What has a place, and tips where a line does not end.
-  std::vector<char> fixed_of_free() const {
-    std::vector<char> fixed = bound_;
-    for (const Anchor& anchor : from_.anchors.anchors) {
-      if (DualComplex::dimension(anchor.cell) != 0) continue;
-      const std::uint32_t v = cells_.number(anchor.cell);
-      const bool there =
-          v < cells_.vertices.size() && cells_.vertices[v] == anchor.cell;  // else of a fragment
-      if (there && neighbours_[v].size() != 1) fixed[v] = 1;
-    }
-    return fixed;
   }
 
   // The vertex of the surface in the cell of a vertex, or null.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -11,7 +13,9 @@
 #include "core/base/split_mix64.h"
 #include "core/chords/chord_fields.h"
 #include "core/collapse/lattice_solids.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "core/quality/sheet_topology.h"
+#include "core/ridge/row_band.h"
 #include "core/shapes/shapes.h"
 
 namespace affskel::core {
@@ -104,6 +108,30 @@ TEST(Collapse, JoinsAnchorsByTheCheapestWay) {
     for (const auto& member : complex.star(cell)) beside = beside || member.cube % 25 == cube(0, 2, 2);
     EXPECT_TRUE(beside);
   });
+}
+
+// A tip at the outer wall of a ring, which a square across from it anchors: a line leads to it, and the ring's own line
+// does not run there and back.
+TEST(Collapse, LeadsOneLineToATip) {
+  const LatticeSolid ring(make_torus(3, 1, 2048), 0.25);
+  const DualComplex complex(ring.lattice);
+  const SamplePlaces places(ring.solid, ring.lattice);
+  const auto cube_at = [&](double angle, double radius) {
+    const Vec3 wanted{radius * std::cos(angle), radius * std::sin(angle), 0};
+    std::pair nearest(HUGE_VAL, 0U);
+    for_each_point(ring.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      nearest = std::min(nearest, std::pair(norm(places.at(i, j, k) - wanted), rank));
+    });
+    return nearest.second;
+  };
+  for (const double angle : {1.8, 2.2, 2.6, 3.0}) {
+    const Cell tip = complex.cell(cube_at(angle, 3.6), DualComplex::kUpperVertex);
+    const std::vector<Anchor> anchors{{complex.square(cube_at(0, 3), 0), 1}, {tip, 0}};
+    const CellSet left = collapse(complex, anchors).cells;
+    std::size_t edges = 0;
+    for (const Cell edge : complex.cofaces(tip)) edges += left.has(edge);
+    EXPECT_EQ(edges, 1U) << angle;
+  }
 }
 
 TEST(Collapse, StopsWhenItsContextAsks) {
