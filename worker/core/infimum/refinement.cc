@@ -114,16 +114,20 @@ void Refinement::find_first_rounds() {
   for (const std::uint8_t first : first_) look_round_ = std::max(look_round_, first + 1);
 }
 
+// Whether the round before changed something one or two steps away.
+bool Refinement::has_news(std::uint32_t p, int round) const {
+  return std::ranges::any_of(around_[p], [&](std::uint32_t q) {
+    return q != kNobody && (is_news(q, round) || std::ranges::any_of(around_[q], [&](std::uint32_t r) {
+                              return r != kNobody && r != p && is_news(r, round);
+                            }));
+  });
+}
+
 std::vector<std::uint32_t> Refinement::to_do(int round, PointRange range) const {
   std::vector<std::uint32_t> points;
   for (std::uint32_t p = range.begin; p < range.end; ++p) {
-    bool has = round < look_round_ ? first_[p] == round : round == look_round_;
-    if (round > look_round_) {
-      NearPlaces(grid_, around_, least_, p).for_each([&](std::uint32_t q, const Vec3&) {
-        has = has || is_news(q, round);
-      });
-    }
-    if (has) points.push_back(p);
+    if (round < look_round_ ? first_[p] == round : round == look_round_ || has_news(p, round))
+      points.push_back(p);
   }
   return points;
 }

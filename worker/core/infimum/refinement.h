@@ -83,6 +83,7 @@ class Refinement {
   bool is_news(std::uint32_t near_point, int round) const {
     return round == look_round_ || round_[near_point] + 1 == round;
   }
+  bool has_news(std::uint32_t point, int round) const;
   struct Offer {
     LeastChord start;
     double promise = 0;  // E
