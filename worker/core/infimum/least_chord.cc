@@ -31,8 +31,18 @@ constexpr double kAcross = 1e-6;        // how far below a saddle a descent acro
 constexpr double kWorthwhile = 1.3;  // how much more than the least piece one across a saddle may be at first
 constexpr double kWorth = 1e-7;      // of the least piece, by which another must be less
 constexpr double kParallel = 1e-9;   // sine between two saddles' z
+constexpr double kAlike = 0.98;      // cosine
 
 }  // namespace
+
+bool alike(const LeastChord& a, const LeastChord& b) {
+  return dot(a.normal, b.normal) > kAlike;
+}
+
+double promised(const LeastChord& piece, const Vec3& way) {
+  const double root = std::max(0.0, 1 + piece.slope * dot(piece.normal, way) / (3 * piece.erosion));
+  return piece.erosion * root * root * root;
+}
 
 class ChordDescent::Work {
  public:
@@ -54,6 +64,7 @@ class ChordDescent::Work {
   }
 
   std::uint64_t evaluations() const { return evaluations_; }
+  SaddleSearch& saddles() { return saddles_; }
 
  private:
   static bool valid(const ChordPiece& piece) { return piece.found && piece.volume > 0; }
@@ -345,6 +356,10 @@ LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start, const D
 
 LeastChord ChordDescent::look_across(const Vec3& x, LeastChord least) {
   return work_->look_across(x, least);
+}
+
+SaddleSearch& ChordDescent::saddles() {
+  return work_->saddles();
 }
 
 std::uint64_t ChordDescent::evaluations() const {

@@ -10,6 +10,8 @@
 
 namespace affskel::core {
 
+class SaddleSearch;
+
 /// A plane through x whose piece is the least of all planes near it.
 struct LeastChord {
   static constexpr std::uint32_t kNone = PieceInput::kNone;
@@ -24,6 +26,14 @@ struct LeastChord {
 
   int kind() const { return (saddles[0] != kNone) + (saddles[1] != kNone); }
 };
+
+/// Whether two planes are so near to each other that one descent leads from both to one piece, mostly.
+bool alike(const LeastChord& a, const LeastChord& b);
+
+/// What the plane of a piece promises to cut off when it is moved from x to x + way: E^(1/3) goes on along its
+/// gradient.  That is concave where pieces are convex (Brunn and Minkowski), so that less is cut off, if no part
+/// joins.
+double promised(const LeastChord& piece, const Vec3& way);
 
 /// When a descent is given up.
 struct DescentBound {
@@ -56,6 +66,9 @@ class ChordDescent {
   /// Looks across the saddles near a least piece for lesser ones, and from these again.
   /// @return the least piece found; `least` itself where there is no lesser one.
   LeastChord look_across(const Vec3& x, LeastChord least);
+
+  /// For questions between descents.
+  SaddleSearch& saddles();
 
   std::uint64_t evaluations() const;  ///< pieces found so far
 

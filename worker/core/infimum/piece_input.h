@@ -105,7 +105,7 @@ struct PieceInput {
     double cosine =
         0;  ///< the normals of all planes at which parts meet make no less with it, or its opposite
   };
-  std::vector<Saddle> saddles;
+  std::vector<Saddle> saddles;  ///< by vertex
   FourTree saddle_tree;         ///< over `saddles`
   Groups<std::uint32_t> rings;  ///< per vertex: its neighbours, in their order round it
   /// Pairs of triangles that pass through each other.

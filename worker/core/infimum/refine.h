@@ -30,9 +30,9 @@ struct RefineCost {
 /// (Zografos 2003, section 2.2.2: an infimum; it is a limit where the optimal plane touches a saddle).
 ///
 /// One point in eight goes down from the direction that its seed was found with (ChordDescent); the others follow
-/// their neighbours (Refinement).  Then points offer their planes to their neighbours on the lattice, in rounds,
-/// until no offer leads lower: as in PatchMatch (Barnes et al. 2009), but all points of a round at once, from what
-/// the round before left.  So the result is
+/// their neighbours (Refinement).  Then points try the planes of those near, and planes that touch two of the saddles
+/// known there (look_wider), in rounds, until nothing leads lower: as in PatchMatch (Barnes et al. 2009), but all
+/// points of a round at once, from what the round before left.  So the result is
 /// a function of solid, lattice and seeds.  It is never above the seeds; that it is the infimum is not proven
 /// at every point.
 ///

@@ -6,31 +6,25 @@
 
 #include "core/base/parallel.h"
 #include "core/base/unit.h"
+#include "core/infimum/wider_look.h"
 #include "core/lattice/lattice_edges.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNobody = FieldValue::kNoDirection;
+constexpr std::uint32_t kNobody = NearPlaces::kNobody;
 constexpr std::size_t kBlock = 64;  // points that a thread takes at once
 
 constexpr double kSeedRounding = 1e-9;  // seeds have 36 bits
 
-// When a neighbour's plane is worth a descent, by the volume E + |grad E| n.(x - y) that it promises at x.
-constexpr double kPromised = 1.02;   // at most so many times what is known,
-constexpr double kBend = 2;          // but for so much of E times the square of its relative change
+constexpr double kPromised = 1.02;   // a neighbour's plane may promise so many times what is known
 constexpr double kFirst = 3;         // the piece that the descent begins with, likewise
-constexpr double kAlike = 0.98;      // cosine between planes of one basin
 constexpr double kNoBetter = 0.999;  // alike planes that promise no less than this are of one basin
 constexpr double kLess = 1e-7;       // by which a piece must be less to take the place of another
 constexpr double kSeedHope = 2;      // how many times what neighbours led to a seed may be
 
 // DescentBound::promise: of a point that has nothing yet but its seed, and of others.
 constexpr double kFollowPromise = 4, kOfferPromise = 1;
-
-bool alike(const LeastChord& a, const LeastChord& b) {
-  return dot(a.normal, b.normal) > kAlike;
-}
 
 }  // namespace
 
@@ -75,10 +69,11 @@ std::vector<RefinedPoint> Refinement::descend(const DirectionSet& directions, co
 }
 
 std::vector<RefinedPoint> Refinement::improve(int round, PointRange range, ExecutionContext& context) {
-  const std::vector<std::uint32_t> todo = offered(round, range);
-  std::vector<RefinedPoint> found(todo.size());
-  each_of(todo.size(), context, [&](std::size_t i, ChordDescent& descent) {
-    found[i] = {todo[i], least_of_offers(round, todo[i], descent)};
+  const std::vector<std::uint32_t> points = to_do(round, range);
+  std::vector<RefinedPoint> found(points.size());
+  each_of(points.size(), context, [&](std::size_t i, ChordDescent& descent) {
+    const std::uint32_t p = points[i];
+    found[i] = {p, round < look_round_ ? follow(round, p, descent) : look(round, p, descent)};
   });
   std::erase_if(found, [&](const RefinedPoint& f) {
     return first_[f.point] < round && !(f.least.erosion < least_[f.point].erosion);
@@ -116,22 +111,25 @@ void Refinement::find_first_rounds() {
       }
     }
   }
+  for (const std::uint8_t first : first_) look_round_ = std::max(look_round_, first + 1);
 }
 
-// Whether the point has yet to hear of what the neighbour has.
-bool Refinement::offers_to(std::uint32_t q, std::uint32_t p, int round) const {
-  return q != kNobody && first_[q] < round && (first_[p] == round || round_[q] + 1 == round);
+// Whether the round before changed something one or two steps away.
+bool Refinement::has_news(std::uint32_t p, int round) const {
+  return std::ranges::any_of(around_[p], [&](std::uint32_t q) {
+    return q != kNobody && (is_news(q, round) || std::ranges::any_of(around_[q], [&](std::uint32_t r) {
+                              return r != kNobody && r != p && is_news(r, round);
+                            }));
+  });
 }
 
-std::vector<std::uint32_t> Refinement::offered(int round, PointRange range) const {
-  std::vector<std::uint32_t> todo;
+std::vector<std::uint32_t> Refinement::to_do(int round, PointRange range) const {
+  std::vector<std::uint32_t> points;
   for (std::uint32_t p = range.begin; p < range.end; ++p) {
-    if (first_[p] > round) continue;
-    const bool any = std::any_of(around_[p].begin(), around_[p].end(),
-                                 [&](std::uint32_t q) { return offers_to(q, p, round); });
-    if (any || first_[p] == round) todo.push_back(p);
+    if (round < look_round_ ? first_[p] == round : round == look_round_ || has_news(p, round))
+      points.push_back(p);
   }
-  return todo;
+  return points;
 }
 
 // A point that begins, begins with its seed.
@@ -144,24 +142,18 @@ LeastChord Refinement::from_seed(std::uint32_t p, const LeastChord& seed, ChordD
 // What the neighbours offer, what promises least first.  Two opposite ones of one basin offer one plane.
 std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<Offer, 6>& offers) const {
   const Vec3 x = at(p);
-  const auto promised = [&](std::uint32_t q) {
-    return least_[q].erosion + least_[q].slope * dot(least_[q].normal, x - at(q));
-  };
   std::size_t count = 0;
   for (std::size_t i = 0; i < 6; ++i) {
     const std::uint32_t q = around_[p][i], opposite = around_[p][i ^ 1U];
-    if (!offers_to(q, p, round)) continue;
+    if (!has_begun(q, round)) continue;
     Offer& offer = offers[count++];
-    offer.start = least_[q];
-    offer.promise = promised(q);
-    const double change = offer.promise / least_[q].erosion - 1;
-    offer.doubt = kBend * change * change * least_[q].erosion;
-    if (!offers_to(opposite, p, round) || least_[opposite].saddles != offer.start.saddles ||
+    offer = {least_[q], promised(least_[q], x - at(q))};
+    if (!has_begun(opposite, round) || least_[opposite].saddles != offer.start.saddles ||
         !alike(least_[opposite], offer.start)) {
       continue;
     }
     offer.start.normal = unit(offer.start.normal + least_[opposite].normal);
-    offer.promise = 0.5 * (offer.promise + promised(opposite));
+    offer.promise = 0.5 * (offer.promise + promised(least_[opposite], x - at(opposite)));
     i |= 1U;
   }
   std::stable_sort(offers.begin(), offers.begin() + static_cast<std::ptrdiff_t>(count),
@@ -169,33 +161,32 @@ std::size_t Refinement::list_offers(int round, std::uint32_t p, std::array<Offer
   return count;
 }
 
-LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent& descent) const {
+// A point that begins: from what its neighbours have, and from its seed where that leads elsewhere.
+LeastChord Refinement::follow(int round, std::uint32_t p, ChordDescent& descent) const {
   const Vec3 x = at(p);
   const LeastChord& start = least_[p];
-  const bool begins = first_[p] == round;
   LeastChord best = start;
   bool lower = false;
   std::array<Offer, 6> offers;
   const std::size_t count = list_offers(round, p, offers);
-  std::array<const LeastChord*, 7> tried{&start};
-  std::size_t tries = begins ? 0 : 1;
+  std::array<const LeastChord*, 6> tried;
+  std::size_t tries = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Offer& offer = offers[i];
     const bool less = offer.promise < kNoBetter * best.erosion;
     const bool known = std::any_of(tried.begin(), tried.begin() + tries, [&](const LeastChord* other) {
       return (!less || other->saddles == offer.start.saddles) && alike(*other, offer.start);
     });
-    if (known || offer.promise - offer.doubt > kPromised * best.erosion) continue;
+    if (known || offer.promise > kPromised * best.erosion) continue;
     tried[tries++] = &offer.start;
-    const bool any = lower || !begins;
-    const LeastChord found = descent.descend(
-        x, offer.start,
-        {kFirst * best.erosion, best.erosion * (any ? 1 - kLess : 1), any ? kOfferPromise : kFollowPromise});
+    const LeastChord found = descent.descend(x, offer.start,
+                                             {kFirst * best.erosion, best.erosion * (lower ? 1 - kLess : 1),
+                                              lower ? kOfferPromise : kFollowPromise});
     if (!(found.erosion < best.erosion * (1 - kLess))) continue;
     best = found;
     lower = true;
   }
-  if (begins && !(lower && alike(best, start)) && start.erosion < kSeedHope * best.erosion) {
+  if (!(lower && alike(best, start)) && start.erosion < kSeedHope * best.erosion) {
     const double bound = best.erosion * (lower ? 1 : 1 + kSeedRounding);
     const LeastChord own = descent.descend(x, start, {kFirst * best.erosion, bound, kFollowPromise});
     if (own.erosion <= bound) {
@@ -204,6 +195,12 @@ LeastChord Refinement::least_of_offers(int round, std::uint32_t p, ChordDescent&
     }
   }
   return lower ? descent.look_across(x, best) : best;
+}
+
+LeastChord Refinement::look(int round, std::uint32_t p, ChordDescent& descent) const {
+  const NearPlaces near(grid_, around_, least_, p);
+  return look_wider(
+      input_, at(p), least_[p], near, least_, [&](std::uint32_t q) { return is_news(q, round); }, descent);
 }
 
 std::unique_ptr<ChordDescent> Refinement::borrow() {

@@ -12,6 +12,7 @@
 #include "core/erosion/directions.h"
 #include "core/erosion/field.h"
 #include "core/infimum/least_chord.h"
+#include "core/infimum/near_places.h"
 #include "core/infimum/piece_input.h"
 #include "core/lattice/lattice.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -36,9 +37,9 @@ struct RefinedPoint {
 /// In round 0 those points whose indices along the axes are even go down from their seeds; the others wait with
 /// theirs.  In rounds 1 to 3 points with one, two and three odd indices follow their neighbours, mostly with a
 /// plane half-way between those of two: where the optimum turns steadily that is all but it, and where it does
-/// not they go down from their own seeds, too.  A point without a neighbour to follow does not wait.  From the
-/// round after its first on a point goes down from the planes of those neighbours that the round before
-/// changed.  Who has all that a round found puts it in with set(); the next round reads only that.
+/// not they go down from their own seeds, too.  A point without a neighbour to follow does not wait.  In the round
+/// after that all points look wider (look_wider), and from then on those near which the round before changed
+/// something.  Who has all that a round found puts it in with set(); the next round reads only that.
 ///
 /// Threads: one calls, and descend() and improve() use those that were asked for.
 class Refinement {
@@ -76,16 +77,22 @@ class Refinement {
   template <class Body>
   void each_of(std::size_t count, ExecutionContext& context, const Body& body);
   void find_first_rounds();
-  bool offers_to(std::uint32_t neighbour, std::uint32_t point, int round) const;
+  bool has_begun(std::uint32_t neighbour, int round) const {
+    return neighbour != NearPlaces::kNobody && first_[neighbour] < round;
+  }
+  bool is_news(std::uint32_t near_point, int round) const {
+    return round == look_round_ || round_[near_point] + 1 == round;
+  }
+  bool has_news(std::uint32_t point, int round) const;
   struct Offer {
     LeastChord start;
     double promise = 0;  // E
-    double doubt = 0;    // of it
   };
   std::size_t list_offers(int round, std::uint32_t point, std::array<Offer, 6>& offers) const;
-  std::vector<std::uint32_t> offered(int round, PointRange range) const;
+  std::vector<std::uint32_t> to_do(int round, PointRange range) const;
   LeastChord from_seed(std::uint32_t point, const LeastChord& seed, ChordDescent& descent) const;
-  LeastChord least_of_offers(int round, std::uint32_t point, ChordDescent& descent) const;
+  LeastChord follow(int round, std::uint32_t point, ChordDescent& descent) const;
+  LeastChord look(int round, std::uint32_t point, ChordDescent& descent) const;
   std::unique_ptr<ChordDescent> borrow();
   void give_back(std::unique_ptr<ChordDescent> descent);
 
@@ -93,10 +100,11 @@ class Refinement {
   const LatticeGrid grid_;
   const unsigned threads_;
   std::vector<LatticePlace> places_;
-  std::vector<std::array<std::uint32_t, 6>> around_;  // neighbours within the solid; kNoDirection
+  LatticeNeighbours around_;
   std::vector<LeastChord> least_;
   std::vector<std::uint8_t> round_;  // in which it was found
   std::vector<std::uint8_t> first_;  // round in which the point begins: 0 .. 3
+  int look_round_ = 0;               // the one after the last of these
   std::mutex mutex_;
   std::vector<std::unique_ptr<ChordDescent>> idle_;  // guarded by mutex_
 };

@@ -66,6 +66,33 @@ const std::vector<SaddleSearch::Saddle>& SaddleSearch::just_below(const Vec3& x,
   return found_;
 }
 
+const std::vector<SaddleSearch::Saddle>& SaddleSearch::nearest(const Vec3& x, std::size_t count) {
+  x_ = x;
+  count = std::min(count, in_.saddles.size());
+  while (true) {
+    found_.clear();
+    const auto within = static_cast<float>(radius_);
+    visit_vertices([&](const FourBoxes& boxes) { return PlaneHeights::gap(boxes, x) <= within; },
+                   [&](const PieceInput::Saddle& saddle) {
+                     const Vec3 y = from_x(saddle.vertex);
+                     const double square = dot(y, y);
+                     if (square <= radius_ * radius_) found_.push_back({square, saddle.vertex});
+                   });
+    if (found_.size() >= count) break;
+    radius_ *= 2;
+  }
+  if (found_.size() > 4 * count) radius_ *= 0.75;
+  std::partial_sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count), found_.end());
+  found_.resize(count);
+  return found_;
+}
+
+bool SaddleSearch::may_join(const Vec3& x, std::uint32_t vertex, const Vec3& d) {
+  x_ = x;
+  const auto saddle = std::ranges::lower_bound(in_.saddles, vertex, {}, &PieceInput::Saddle::vertex);
+  return saddle != in_.saddles.end() && saddle->vertex == vertex && may_join(*saddle, d);
+}
+
 bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) const {
   const std::uint32_t vertex = saddle.vertex;
   if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,6 +34,13 @@ class SaddleSearch {
   /// Looks no further than the tilt that passes some hundred vertices.
   const std::vector<Saddle>& just_below(const Vec3& x, const Vec3& d);
 
+  /// The `count` vertices nearest to x at which parts may meet, or all; by the square of their distance.
+  const std::vector<Saddle>& nearest(const Vec3& x, std::size_t count);
+
+  /// Whether parts of the solid may meet at the vertex when the plane through x of normal d, which touches it,
+  /// tilts.
+  bool may_join(const Vec3& x, std::uint32_t vertex, const Vec3& d);
+
  private:
   Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
   bool may_join(const PieceInput::Saddle& saddle, const Vec3& d) const;
@@ -40,7 +48,8 @@ class SaddleSearch {
   void visit_vertices(Meets meets, Visit visit);
 
   const PieceInput& in_;
-  double furthest_;  // tilt that just_below() looks at
+  double furthest_;       // tilt that just_below() looks at
+  double radius_ = 0.05;  // that nearest() looks at first, of no effect on what it finds
   Vec3 x_;
   FourTree::Lists lists_;
   std::vector<Saddle> found_;

@@ -97,5 +97,36 @@ TEST_F(SaddleSearchTest, OnesJustBelow) {
   EXPECT_GT(total, 60U);
 }
 
+// In any order of questions: what the search remembers of the last one changes nothing.
+TEST_F(SaddleSearchTest, NearestOnes) {
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 x = 0.6 * draw_vector(random_);
+    std::vector<SaddleSearch::Saddle> all;
+    for (const PieceInput::Saddle& saddle : input_.saddles) {
+      const Vec3 y = input_.mesh.points[saddle.vertex] - x;
+      all.push_back({dot(y, y), saddle.vertex});
+    }
+    std::sort(all.begin(), all.end());
+    const std::size_t count = n % 10 == 9 ? all.size() + 5 : static_cast<std::size_t>(n % 9);
+    const std::vector<SaddleSearch::Saddle>& found = search_.nearest(x, count);
+    ASSERT_EQ(found.size(), std::min(count, all.size()));
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].vertex, all[i].vertex);
+  }
+}
+
+TEST_F(SaddleSearchTest, PartsMayMeetWhereTheyDo) {
+  std::size_t meet = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const auto vertex = static_cast<std::uint32_t>(static_cast<std::size_t>(n) % input_.mesh.points.size());
+    const Vec3& s = input_.mesh.points[vertex];
+    const Vec3 d = draw_direction(random_), y = draw_vector(random_);
+    const Vec3 x = s + 0.3 * (y - dot(d, y) * d);  // of a plane that touches the vertex
+    if (parts_below(input_.mesh, vertex, s, d) < 2) continue;
+    EXPECT_TRUE(search_.may_join(x, vertex, d));
+    ++meet;
+  }
+  EXPECT_GT(meet, 50U);
+}
+
 }  // namespace
 }  // namespace affskel::core

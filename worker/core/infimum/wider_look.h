@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/base/vec3.h"
+#include "core/infimum/least_chord.h"
+#include "core/infimum/near_places.h"
+#include "core/infimum/piece_input.h"
+
+namespace affskel::core {
+
+/// Looks for a lesser piece of x than the one that is known, in basins that a descent does not come to: those between
+/// two saddles, which are narrow.  It goes down
+///   - from the planes that touch two of the saddles known near: those of near places' planes and the nearest ones;
+///   - from the planes of near places, where these promise less.
+/// Planes whose piece holds a near place of greater E are left out (NearPlaces), and so are those that may meet no
+/// parts at a saddle.
+///
+/// @param descent with what it holds for x's solid.
+/// @param heard tells of near places whose planes x has not tried yet.
+/// @return the least piece found; `known` itself where there is no lesser one.
+LeastChord look_wider(const PieceInput& input, const Vec3& x, const LeastChord& known, const NearPlaces& near,
+                      const std::vector<LeastChord>& least, const std::function<bool(std::uint32_t)>& heard,
+                      ChordDescent& descent);
+
+}  // namespace affskel::core
