@@ -149,8 +149,9 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
 
 // @param places per vertex of the ridge.
 SheetLines with_joints(const SheetLines& lines, std::span<const char> ends, std::span<const double> balls,
-                       double spacing, std::vector<Vec3>& places) {
-  const SheetLines zipped = zipped_lines(joined_links(lines, places, balls), ends, balls, spacing, places);
+                       double spacing, std::vector<Vec3>& places, ExecutionContext* context) {
+  const SheetLines zipped =
+      zipped_lines(joined_links(lines, places, balls), ends, balls, spacing, places, context);
   return joined_links(zipped, places, balls);
 }
 
@@ -253,7 +254,7 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   lines = with_joints(sheet_lines(ridge, ends.is_end, options.context), ends.is_end, balls, lattice.spacing,
-                      places);
+                      places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 
 #include "core/mesh/polylines.h"
@@ -20,20 +21,41 @@ struct Beside {
   std::size_t leaves = 0,
               at = 0;  // the last vertex of the one that is beside the other, and which of that it is beside
   double length = 0;
+
+  bool is_before(const Beside& that) const {
+    if (length != that.length) return length > that.length;
+    const auto order = [](const Beside& one) {
+      return std::tie(one.sliding, one.other, one.sliding_back, one.other_back);
+    };
+    return order(*this) < order(that);
+  }
+};
+
+// A line that ends at a joint, by its first vertex or by its last.
+struct LineEnd {
+  std::size_t line;
+  bool back;
 };
 
 class Zip {
  public:
   Zip(const SheetLines& lines, std::span<const char> ends, std::span<const double> ball, double spacing,
       std::vector<Vec3>& places)
-      : lines_(lines), ends_(ends), ball_(ball), spacing_(spacing), places_(places) {
-    parts_ = polylines(lines.vertices.size(), lines.segments);
-    count_degrees();
+      : lines_(lines),
+        ends_(ends),
+        ball_(ball),
+        spacing_(spacing),
+        places_(places),
+        at_(lines.vertices.size()),
+        longest_at_(lines.vertices.size()),
+        is_stale_(lines.vertices.size(), 0) {
+    for (Line& line : polylines(lines.vertices.size(), lines.segments)) add(std::move(line));
   }
 
-  SheetLines run() {
+  SheetLines run(ExecutionContext* context) {
     // Each slide leaves less that runs side by side; the bound is for what nobody has thought of.
     for (std::size_t n = 4 * parts_.size(); n > 0; --n) {
+      throw_if_stopped(context);
       const Beside found = longest();
       if (found.length == 0) break;
       slide(found);
@@ -46,10 +68,33 @@ class Zip {
   double ball(std::uint32_t v) const { return ball_[lines_.vertices[v]]; }
   double distance(std::uint32_t a, std::uint32_t b) const { return norm(place(a) - place(b)); }
 
-  void count_degrees() {
-    degree_.assign(lines_.vertices.size(), 0);
-    for (const Segment& segment : segments())
-      for (const std::uint32_t v : segment) ++degree_[v];
+  void add(Line line) {
+    parts_.push_back(std::move(line));
+    put_ends(parts_.size() - 1);
+  }
+
+  void put_ends(std::size_t number) {
+    const Line& line = parts_[number];
+    for (const bool back : {false, true}) {
+      const std::uint32_t v = back ? line.back() : line.front();
+      at_[v].push_back({number, back});
+      call_stale(v);
+    }
+  }
+
+  // Its line stays to be taken; the numbers of the others stay.
+  Line taken(std::size_t number) {
+    Line line = std::exchange(parts_[number], {});
+    for (const std::uint32_t v : {line.front(), line.back()}) {
+      std::erase_if(at_[v], [&](const LineEnd& end) { return end.line == number; });
+      call_stale(v);
+    }
+    return line;
+  }
+
+  void call_stale(std::uint32_t joint) {
+    if (!is_stale_[joint]) stale_.push_back(joint);
+    is_stale_[joint] = 1;
   }
 
   std::vector<Segment> segments() const {
@@ -63,25 +108,32 @@ class Zip {
 
   static Line turned(const Line& line, bool back) { return back ? Line(line.rbegin(), line.rend()) : line; }
 
-  Beside longest() const {
+  Beside longest() {
+    for (const std::uint32_t joint : stale_) {
+      longest_at_[joint] = longest_at(joint);
+      is_stale_[joint] = 0;
+    }
+    stale_.clear();
+    return *std::min_element(longest_at_.begin(), longest_at_.end(),
+                             [](const Beside& a, const Beside& b) { return a.is_before(b); });
+  }
+
+  Beside longest_at(std::uint32_t joint) const {
     Beside best;
-    for (std::size_t a = 0; a < parts_.size(); ++a) {
-      for (std::size_t b = 0; b < parts_.size(); ++b) {
-        if (a == b) continue;
-        for (const bool a_back : {false, true}) {
-          for (const bool b_back : {false, true}) {
-            const Line p = turned(parts_[a], a_back), q = turned(parts_[b], b_back);
-            if (p.front() != q.front() || p.size() < 3 || p.front() == p.back() || q.front() == q.back())
-              continue;
-            Beside found = beside(p, q);
-            if (!(found.length > best.length)) continue;
-            found.sliding = a;
-            found.other = b;
-            found.sliding_back = a_back;
-            found.other_back = b_back;
-            best = found;
-          }
-        }
+    for (const LineEnd& a : at_[joint]) {
+      const Line p = turned(parts_[a.line], a.back);
+      if (p.size() < 3 || p.front() == p.back()) continue;
+      for (const LineEnd& b : at_[joint]) {
+        if (a.line == b.line) continue;
+        const Line q = turned(parts_[b.line], b.back);
+        if (q.front() == q.back()) continue;
+        Beside found = beside(p, q);
+        if (found.length == 0) continue;
+        found.sliding = a.line;
+        found.other = b.line;
+        found.sliding_back = a.back;
+        found.other_back = b.back;
+        if (best.length == 0 || found.is_before(best)) best = found;
       }
     }
     return best;
@@ -96,7 +148,7 @@ class Zip {
       if (distance(p[k], q[j]) > std::min(ball(p[k]), ball(q[j]))) break;
       length += distance(p[k - 1], p[k]);
       more += ball(q[j]) - ball(p[k]);
-      if (j == 0 || (degree_[p[0]] > 2 && distance(p[k], p[0]) <= ball(p[0]))) continue;
+      if (j == 0 || (at_[p[0]].size() > 2 && distance(p[k], p[0]) <= ball(p[0]))) continue;
       found.leaves = k;
       found.at = j;
       found.length = length;
@@ -106,9 +158,9 @@ class Zip {
   }
 
   void slide(const Beside& found) {
-    Line p = turned(parts_[found.sliding], found.sliding_back);
-    const Line q = turned(parts_[found.other], found.other_back);
-    const std::uint32_t to = q[found.at], from = p[found.leaves];
+    Line p = turned(taken(found.sliding), found.sliding_back);
+    Line q = turned(taken(found.other), found.other_back);
+    const std::uint32_t joint = q.front(), to = q[found.at], from = p[found.leaves];
     const auto between = std::min(found.leaves - 1, static_cast<std::size_t>(distance(to, from) / spacing_));
     const Vec3 begin = place(to), end = place(from);
     p.erase(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(found.leaves - between));
@@ -117,38 +169,36 @@ class Zip {
           begin + (static_cast<double>(k + 1) / static_cast<double>(between + 1)) * (end - begin);
     p.insert(p.begin(), to);
     parts_[found.sliding] = std::move(p);
+    put_ends(found.sliding);
     // What was a joint stays an end of lines: they may double back there.
     const auto cut = q.begin() + static_cast<std::ptrdiff_t>(found.at);
-    parts_[found.other] = Line(q.begin(), cut + 1);
-    parts_.emplace_back(cut, q.end());
-    count_degrees();
-    for (std::uint32_t v = q.front(); degree_[v] == 1 && !ends_[lines_.vertices[v]];) v = without_end(v);
-  }
-
-  // @returns the vertex that is the end now.
-  std::uint32_t without_end(std::uint32_t end) {
-    const auto line = std::find_if(parts_.begin(), parts_.end(), [&](const Line& part) {
-      return part.front() == end || part.back() == end;
-    });
-    const std::uint32_t next = line->front() == end ? line->back() : line->front();
-    parts_.erase(line);
-    count_degrees();
-    return next;
+    Line beyond(cut, q.end());
+    q.erase(cut + 1, q.end());
+    parts_[found.other] = std::move(q);
+    put_ends(found.other);
+    add(std::move(beyond));
+    for (std::uint32_t v = joint; at_[v].size() == 1 && !ends_[lines_.vertices[v]];) {
+      const Line line = taken(at_[v].front().line);
+      v = line.front() == v ? line.back() : line.front();
+    }
   }
 
   SheetLines drawn() const {
     SheetLines result;
     result.opened = lines_.opened;
     std::vector<std::uint32_t> number(lines_.vertices.size(), 0);
-    std::vector<char> was_alone(number.size(), 1);
+    std::vector<char> was_alone(number.size(), 1), is_left(number.size(), 0);
     for (const Segment& segment : lines_.segments)
       for (const std::uint32_t v : segment) was_alone[v] = 0;
+    const std::vector<Segment> left = segments();
+    for (const Segment& segment : left)
+      for (const std::uint32_t v : segment) is_left[v] = 1;
     for (std::uint32_t v = 0; v < number.size(); ++v) {
-      if (degree_[v] == 0 && !was_alone[v]) continue;
+      if (!is_left[v] && !was_alone[v]) continue;
       number[v] = static_cast<std::uint32_t>(result.vertices.size());
       result.vertices.push_back(lines_.vertices[v]);
     }
-    for (const auto& [a, b] : segments()) result.segments.push_back({number[a], number[b]});
+    for (const auto& [a, b] : left) result.segments.push_back({number[a], number[b]});
     return result;
   }
 
@@ -157,15 +207,18 @@ class Zip {
   std::span<const double> ball_;
   double spacing_;
   std::vector<Vec3>& places_;
-  std::vector<Line> parts_;  // by numbers in lines_.vertices
-  std::vector<std::uint32_t> degree_;
+  std::vector<Line> parts_;               // by numbers in lines_.vertices; what was taken is empty
+  std::vector<std::vector<LineEnd>> at_;  // per vertex
+  std::vector<Beside> longest_at_;        // per vertex, of what ends there
+  std::vector<char> is_stale_;
+  std::vector<std::uint32_t> stale_;  // whose longest has to be found again
 };
 
 }  // namespace
 
 SheetLines zipped_lines(const SheetLines& lines, std::span<const char> ends, std::span<const double> ball,
-                        double spacing, std::vector<Vec3>& places) {
-  return Zip(lines, ends, ball, spacing, places).run();
+                        double spacing, std::vector<Vec3>& places, ExecutionContext* context) {
+  return Zip(lines, ends, ball, spacing, places).run(context);
 }
 
 }  // namespace affskel::core

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/base/vec3.h"
 #include "core/curve/sheet_lines.h"
 
@@ -17,7 +18,8 @@ namespace affskel::core {
 /// @param ball per vertex of it.
 /// @param spacing of vertices along what is new.
 /// @param places per vertex of it; what leads from one line to another is drawn straight.
+/// @throws CoreError kCancelled when the context asks to stop.
 SheetLines zipped_lines(const SheetLines& lines, std::span<const char> ends, std::span<const double> ball,
-                        double spacing, std::vector<Vec3>& places);
+                        double spacing, std::vector<Vec3>& places, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core
