@@ -13,11 +13,11 @@
 namespace affskel::core {
 
 /// Parts a solid where its limbs meet.  Each limb is a tube about its line, with a joint as thick as it is where it
-/// leaves it (kJoint balls away): the largest ball about a joint is wider than any of its limbs.  What lies there in the
-/// tube of a limb that is thicker, all in all, belongs to that; what lies in one tube alone to its limb; what lies in none,
-/// as at the sides of a chest, to the limb in whose tube the line that it is nearest to is.  So an arm begins where it leaves the trunk, equal limbs share their joint evenly, and a
-/// joint itself has nothing.  A link within the tube of a longer limb, whole, has nothing either.  Keeps references to
-/// its arguments.
+/// leaves it (kJoint balls away): the largest ball about a joint is wider than any of its limbs.  What lies there
+/// in the tube of a limb that is thicker, all in all, belongs to that; what lies in one tube alone to its limb;
+/// what lies in none, as at the sides of a chest, to the limb in whose tube the line that it is nearest to is.  So
+/// an arm begins where it leaves the trunk, equal limbs share their joint evenly, and a joint itself has nothing.
+/// A link within the tube of a longer limb, whole, has nothing either.  Keeps references to its arguments.
 class LimbTubes {
  public:
   /// @param places, ball, radius per vertex: distance to the surface, and of a disc as large as the section.  A limb is as
