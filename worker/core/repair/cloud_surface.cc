@@ -29,16 +29,15 @@ namespace affskel::core {
 namespace {
 
 constexpr std::size_t kFewest = 100;
-constexpr std::size_t kMost =
-    50'000;  // of more, CGAL would refine and solve for seconds without asking whether to stop
+// Of more, CGAL would refine and solve for seconds without asking whether to stop.
+constexpr std::size_t kMost = 50'000;
 constexpr unsigned kApart = 6;  // neighbours whose mean distance is the spacing
 // Neighbours that a normal is taken from: with 18 the two sides of an elephant's ears already run into one another.
 constexpr unsigned kNeighbours = 12;
 constexpr double kLone = 4;          // spacings from the neighbours, root mean square
 constexpr std::size_t kAsked = 500;  // points whose surroundings are looked at for the noise
-constexpr std::size_t kOfScale =
-    6;                          // of the neighbours that are a surface only together, one in so many stays
-constexpr double kCube = 1.25;  // edge of the cubes in which the surface is sought, spacings
+constexpr std::size_t kOfScale = 6;  // of neighbours that are a surface only together, one in so many stays
+constexpr double kCube = 1.25;       // edge of the cubes in which the surface is sought, spacings
 constexpr double kMostCubes = 1 << 24;
 constexpr double kFar = 3;                  // spacings from each point
 constexpr double kMostUnseen = 0.25;        // of the surface: five times what scans of bodies leave open
@@ -81,9 +80,11 @@ class Surfacing {
   CloudSurface surface() {
     CloudSurface found;
     found.lone = leave_out_lone();
+    require_enough();
     thin_out();
     found.used = cloud_.size();
     orient();
+    require_enough();
     take_unit(mean_spacing());
     found.spacing = unit_;
     found.mesh = zero_set();
@@ -112,6 +113,13 @@ class Surfacing {
     const auto height = [&](const Point& p) { return std::fabs(plane * (p - first)); };
     if (height(farthest(height)) <= kFlat * std::sqrt(plane.squared_length()))
       throw CoreError(CoreError::Code::kBadInput, "all points lie in one plane");
+  }
+
+  void require_enough() const {
+    if (cloud_.size() >= kFewest) return;
+    throw CoreError(CoreError::Code::kBadInput, "only " + std::to_string(cloud_.size()) +
+                                                    " points lie near others so that they tell a surface; " +
+                                                    std::to_string(kFewest) + " are needed at least");
   }
 
   auto parameters() const {

@@ -143,6 +143,12 @@ TEST(CloudSurface, RefusesWhatIsNoSurface) {
   EXPECT_NE(refusal(plane).find("one plane"), std::string::npos);
   EXPECT_NE(refusal(line).find("one plane"), std::string::npos);
   EXPECT_NE(refusal(space).find("too noisy"), std::string::npos);
+  // In heaps of seven each point has six near ones, and the next six far away.
+  std::vector<Vec3> heaps;
+  for (int i = 0; i < 1400; ++i)
+    heaps.push_back(double(i / 7 % 10) * Vec3{1, 0, 0} + double(i / 70) * Vec3{0, 1, 1} +
+                    1e-3 * Vec3{random.symmetric(), random.symmetric(), random.symmetric()});
+  EXPECT_NE(refusal(heaps).find("near others"), std::string::npos);
 }
 
 TEST(CloudSurface, IsTheSameEachTime) {
