@@ -258,6 +258,10 @@ class Errors(WithDirectory):
             client.submit((cube, faces[1:]))
         with self.assertRaisesRegex(affskel.BadInputError, r"^1 hole is left[^/]*; fill them by repair='fill=4\.04', or take a new surface .* by repair='wrap'$"):
             client.submit((cube, faces[1:]))
+        points = self.directory / "points.xyz"
+        points.write_text("".join(f"{x} {y} {z}\n" for x, y, z in cube))
+        with self.assertRaisesRegex(affskel.BadInputError, r"no triangles; take a new surface round all of it by repair='wrap'$"):
+            client.submit(points)
         with self.assertRaisesRegex(affskel.BadInputError, "is empty"):
             client.submit(b"")
         with self.assertRaisesRegex(affskel.BadInputError, "vertex 1 is not finite"):

@@ -110,10 +110,9 @@ Notices conversion_notices(const InputFile& input) {
   if (!input.told.empty()) notices.push_back(note("ISOSURFACE", input.told, input.path));
   if (!input.off_text) {
     notices.push_back(note("CONVERTED",
-                           "read as " + input.format + " and submitted as OFF text, " +
-                               std::to_string(input.off.mesh.points.size()) + " vertices and " +
-                               std::to_string(input.off.mesh.triangles.size()) +
-                               " triangles; fetch mesh gives that text",
+                           "read as " + input.format + ", " + std::to_string(input.off.mesh.points.size()) +
+                               " vertices and " + std::to_string(input.off.mesh.triangles.size()) +
+                               " triangles; what is sent is OFF text, which fetch mesh gives",
                            input.path));
   }
   return notices;

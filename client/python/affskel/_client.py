@@ -27,7 +27,13 @@ MAX_NAME, MAX_OWNER = 200, 100  # bytes, by the contract
 
 
 # How affskel-client tells what would mend a mesh with holes.
-_COMMANDS = re.compile(r"; fill them by: .*? --repair (fill=\S+) .* --repair wrap .*")
+_COMMANDS = re.compile(r"; (?:fill them by: .*? --repair (fill=\S+) .*, or )?take a new surface round all of it: .* --repair wrap .*")
+
+
+def _own_way(commands: re.Match[str]) -> str:
+    """What affskel-client's advice is here."""
+    fill = f"fill them by repair='{commands[1]}', or " if commands[1] else ""
+    return f"; {fill}take a new surface round all of it by repair='wrap'"
 
 
 def _short(text: str, most: int) -> str:
@@ -271,8 +277,7 @@ class Client:
                                        f"{given.file or 'the mesh'}: formats other than OFF, images and repair are "
                                        "affskel-client's")
             except AffskelError as error:
-                message = _COMMANDS.sub(r"; fill them by repair='\1', or take a new surface round all of it by repair='wrap'",
-                                        error.message)
+                message = _COMMANDS.sub(_own_way, error.message)
                 if given.file:
                     raise type(error)(message, file=error.file, line=error.line) from None
                 raise type(error)(message.replace(file, "the mesh")) from None  # the caller has no such file
