@@ -38,7 +38,7 @@ LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segm
   }
   for (Limb& limb : limbs_) measure(limb);
   for (Limb& limb : limbs_)
-    for (const std::size_t end : {0, 1}) compare(limb, end);
+    for (std::size_t end = 0; end < 2; ++end) compare(limb, end);
   for (Limb& limb : limbs_) find_within(limb);
   in_thicker_.assign(places.size(), kNone);
   for (const Limb& limb : limbs_)
@@ -59,7 +59,7 @@ void LimbTubes::measure(Limb& limb) const {
   std::vector<double> sorted = limb.tube;
   std::sort(sorted.begin(), sorted.end());
   limb.size = sorted[sorted.size() / 2];
-  for (const std::size_t end : {0, 1}) {
+  for (std::size_t end = 0; end < 2; ++end) {
     const std::uint32_t joint = limb.end(end);
     if (!is_joint(joint)) continue;
     const auto at = [&](std::size_t n) { return end == 0 ? n : line.size() - 1 - n; };
@@ -94,7 +94,7 @@ void LimbTubes::compare(Limb& limb, std::size_t end) const {
 void LimbTubes::find_within(Limb& limb) const {
   if (!is_joint(limb.end(0)) || !is_joint(limb.end(1))) return;
   double thickest = 0;
-  for (const std::size_t end : {0, 1}) {
+  for (std::size_t end = 0; end < 2; ++end) {
     for (const std::uint32_t other : at_joint_[limb.end(end)]) {
       const Limb& longer = limbs_[other];
       if (longer.vertices.size() <= limb.vertices.size() || longer.within != kNone || longer.size <= thickest)
