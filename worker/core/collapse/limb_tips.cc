@@ -21,6 +21,10 @@ constexpr double kSteep = 0.5;
 // Shorter lines are steps of the lattice, spacings.
 constexpr double kMinLength = 4;
 
+// What is so many times as long as wide has begun to be a limb: where births grow fast from there on, it comes to what it
+// grows from.  Twigs that fork were lost there.
+constexpr double kBegun = 0.5;
+
 class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
@@ -62,11 +66,11 @@ class Thinning {
     Line& line = lines_[number];
     const Cell end = line.go(complex_, edge, vertex, now);
     const double fall = kSteep * line.length();
-    if (line.tip.reach < least_reach_ && radius_at(end) - fall > line.rise) {
+    if (!line.begun && radius_at(end) - fall > line.rise) {
       line.tip.vertex = end;
       line.rise = radius_at(end) - fall;
     }
-    if (line.tip.reach < least_reach_ && birth - fall > line.lead) {
+    if (!line.begun && birth - fall > line.lead) {
       line.tip.root = end;
       line.tip.radius = radius_at(end);
       line.tip.width = birth;
@@ -76,6 +80,7 @@ class Thinning {
     } else {
       const double way = std::min(line.length() - line.tip_at, now - birth);
       line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
+      line.begun = line.begun || way >= std::max(kBegun * (birth - 1), kMinLength);
     }
     arrive(end, number);
   }
@@ -87,6 +92,7 @@ class Thinning {
     static constexpr double kChord = 4;
 
     LimbTip tip;
+    bool begun = false;
     double rise = 0;    // at the tip: by how much the radius is ahead of a steep line's
     double lead = 0;    // where the limb begins: by how much births are
     double tip_at = 0;  // length before that

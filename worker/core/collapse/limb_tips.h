@@ -27,8 +27,8 @@ struct LimbTips {
 /// Ju 2010).  The complex is collapsed from the surface inwards at unit speed.  A lone edge, one whose last
 /// square has gone, is born then; lone edges are eaten from the ends of their line, and live until then.
 /// While births grow fast from the end of a line inwards, as from a bump to the middle of a head, or along the
-/// middle of a foot's blunt front, the line says nothing: the limb begins where that ends.  From there on the line
-/// must have an edge whose way from there, and whose life, are `least_reach` times the time of its birth: the limb
+/// middle of a foot's blunt front, the line says nothing: the limb begins where that ends, and for good once it is half
+/// as long as wide.  From there on the line must have an edge whose way from there, and whose life, are `least_reach` times the time of its birth: the limb
 /// is longer than it is wide.  Its tip lies farther out, as long as the distance to the surface does not grow fast.
 /// A function of complex, depths and heights alone.
 /// @param depth per cube: its distance to the surface, spacings; many are alike.
