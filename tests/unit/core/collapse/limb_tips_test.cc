@@ -10,6 +10,7 @@
 #include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/row_band.h"
+#include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -68,6 +69,27 @@ TEST(LimbTips, OfALathAreTheHigherCornersOfItsEnds) {
 TEST(LimbTips, OfACombAreItsTeeth) {
   const std::vector<Vec3> tips = tips_of(comb(4), 0.11);
   EXPECT_EQ(tips.size(), 4U);
+}
+
+double to_capsule(const Vec3& p, const Vec3& a, const Vec3& b, double radius) {
+  const double along = std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+  return norm(p - a - along * (b - a)) - radius;
+}
+
+// A twig that is as long as thick where it leaves the knob of a stem: births grow fast where it comes to the knob.
+TEST(LimbTips, OfATwigOnAKnobAreTheStemsAndTheTwigs) {
+  const Vec3 knob{0, 0, 5}, twig{2.51, 0, 5.67};
+  ImplicitMeshOptions cubes;
+  cubes.low = {-4, -4, -3};
+  cubes.high = {6, 4, 9};
+  cubes.spacing = 0.25;
+  const Mesh mesh = mesh_zero_set(
+      [&](const Vec3& p) {
+        return std::min(
+            {to_capsule(p, {0, 0, 0}, knob, 1), norm(p - knob) - 2.2, to_capsule(p, knob, twig, 0.9)});
+      },
+      cubes);
+  for (const double spacing : {0.15, 0.17, 0.2}) EXPECT_EQ(tips_of(mesh, spacing).size(), 2U) << spacing;
 }
 
 }  // namespace
