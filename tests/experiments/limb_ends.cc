@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <queue>
 #include <utility>
@@ -89,6 +90,56 @@ std::vector<std::uint32_t> peaks(const std::vector<double>& height, const Neighb
   return found;
 }
 
+// Whether a peak is no far side of a ring: going down, the piece about it stays a disc until it meets that of a higher
+// one, or goes down by more than so many radii of a circle as long as its rim.  A half ball goes down by 1.6.
+bool is_end(std::uint32_t peak, const std::vector<double>& way, const core::Mesh& mesh,
+            const Neighbours& beside) {
+  constexpr double kRadii = 1.7;
+  constexpr int kLevels = 48;
+  std::vector<char> in(way.size(), 0);
+  std::vector<std::uint32_t> front{peak},
+      next;  // what was reached last, and what lies below the level beside the piece
+  in[peak] = 1;
+  for (int k = 1; k < kLevels; ++k) {
+    const double level = way[peak] * (1 - static_cast<double>(k) / kLevels);
+    next.clear();
+    while (!front.empty()) {
+      const std::uint32_t at = front.back();
+      front.pop_back();
+      if (way[at] > way[peak]) return true;
+      for (const std::uint32_t to : beside[at]) {
+        if (in[to]) continue;
+        if (way[to] < level) {
+          next.push_back(at);
+        } else {
+          in[to] = 1;
+          front.push_back(to);
+        }
+      }
+    }
+    front = next;
+    std::int64_t euler = std::count(in.begin(), in.end(), 1);
+    double rim = 0, edges = 0;  // every edge of a closed surface is met twice
+    for (const core::Triangle& corners : mesh.triangles) {
+      std::vector<core::Vec3> crossings;
+      int inside = 0;
+      for (std::size_t e = 0; e < 3; ++e) {
+        const std::uint32_t a = corners[e], b = corners[(e + 1) % 3];
+        inside += in[a];
+        edges += in[a] && in[b] ? 0.5 : 0;
+        if (in[a] != in[b])
+          crossings.push_back(mesh.points[a] +
+                              (level - way[a]) / (way[b] - way[a]) * (mesh.points[b] - mesh.points[a]));
+      }
+      euler += inside == 3 ? 1 : 0;
+      if (crossings.size() == 2) rim += norm(crossings[0] - crossings[1]);
+    }
+    if (euler - std::llround(edges) != 1) return false;
+    if (way[peak] - level >= kRadii * rim / (2 * std::numbers::pi)) return true;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<core::Vec3> ends_of_limbs(const Job& job, double length) {
@@ -102,8 +153,9 @@ std::vector<core::Vec3> ends_of_limbs(const Job& job, double length) {
       std::max_element(all.erosion.begin(), all.erosion.end()) - all.erosion.begin())];
   const std::uint32_t start = core::PointIndex(mesh.points).find(centre).number;
   std::vector<core::Vec3> ends;
-  for (const std::uint32_t v : peaks(ways_from(start, mesh, beside), beside, length))
-    ends.push_back(mesh.points[v]);
+  const std::vector<double> way = ways_from(start, mesh, beside);
+  for (const std::uint32_t v : peaks(way, beside, length))
+    if (is_end(v, way, mesh, beside)) ends.push_back(mesh.points[v]);
   return ends;
 }
 

@@ -21,7 +21,7 @@ inline constexpr double kLongLimb = 0.08;
 std::vector<NamedMesh> solids_to_compare(const Setting& setting);
 
 /// The ends of limbs longer than `length`: peaks of the way along the surface from the place of the greatest E.  The
-/// crotch, the back and the calves are none.
+/// crotch, the back and the calves are none, nor is the far side of a ring.
 std::vector<core::Vec3> ends_of_limbs(const Job& job, double length);
 
 /// The vertices, and places along the segments no farther apart than `step`.
