@@ -1,6 +1,7 @@
 #include "core/curve/centre_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,7 @@ constexpr double kRoom =
     0.8;  // of its ball, what a vertex has in a round: from beside the surface none comes back
 constexpr int kRounds = 5;        // sections are across lines that the last round has moved
 constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
+constexpr double kFitted = 5;     // vertices that tell of a parabola
 constexpr double kJoint = 1.5;    // balls: nearer to a joint a section has a part of the other limbs
 constexpr double kSeen = 4;       // radii: of the rays that see a section
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
@@ -36,6 +38,26 @@ constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known 
 
 // How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
 constexpr double kHold = 0.02;
+
+// Least squares.
+class ParabolaFit {
+ public:
+  void add(double t, const Vec3& place) {
+    const Vec3 powers{1, t, t * t};
+    for (int k = 0; k < 3; ++k) {
+      sums_[static_cast<std::size_t>(k)] = sums_[static_cast<std::size_t>(k)] + powers[k] * powers;
+      places_[static_cast<std::size_t>(k)] = places_[static_cast<std::size_t>(k)] + powers[k] * place;
+    }
+  }
+  Vec3 at_0() const {
+    const Vec3 row = inverse_transposed(sums_)[0];  // the sums are symmetric
+    return row.x * places_[0] + row.y * places_[1] + row.z * places_[2];
+  }
+
+ private:
+  Matrix3 sums_{};
+  std::array<Vec3, 3> places_{};
+};
 
 class CentreLines {
  public:
@@ -169,27 +191,32 @@ class CentreLines {
     return std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
   }
 
-  // Each goes by the mean of what lies within a radius on either side, so that no bend is narrower.
+  // Each goes to a parabola through what lies within a radius on either side, so that no bend is narrower, and by the mean
+  // of the shifts there.  Means of the shifts alone leave waves of half that length.
   void to_middle() {
     for (const auto& line : lines_) {
       const Free free = free_part(line);
       std::vector<Shift> shifts;
       std::vector<double> along;
+      std::vector<Vec3> before;
       for (std::size_t n = free.first; n < free.last; ++n) {
         shifts.push_back(shift_of(line, n));
-        along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - places_[line[n - 1]]));
+        along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - before.back()));
+        before.push_back(places_[line[n]]);
       }
       std::size_t low = 0;
       for (std::size_t n = 0; n < shifts.size(); ++n) {
         const double stretch = kDirection * shifts[n].ball;
         while (along[n] - along[low] > stretch) ++low;
+        while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
         Vec3 sum;
         double count = 0;
-        for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count)
+        ParabolaFit fit;
+        for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count) {
           sum = sum + shifts[k].weight * shifts[k].way;
-        while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
-        const std::uint32_t v = line[free.first + n];
-        go(v, places_[v] + (1 / count) * sum);
+          fit.add((along[k] - along[n]) / stretch, before[k]);
+        }
+        go(line[free.first + n], (count < kFitted ? before[n] : fit.at_0()) + (1 / count) * sum);
       }
     }
   }

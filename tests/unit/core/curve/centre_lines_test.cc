@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/curve/tubes.h"
@@ -40,6 +41,27 @@ TEST(CentreLines, NoVertexLeavesAZigzag) {
     farthest = std::max(farthest, norm(places[v] - before[v]));
   }
   EXPECT_GT(farthest, 0.5 * kRadius) << "they go to the middle";
+}
+
+// Waves about as long as a limb is thick, which neither means over as much nor fixed passes of neighbours smooth.
+TEST(CentreLines, OfAThickTubeAreItsAxisWhateverTheyBeganAs) {
+  constexpr double kRadius = 1.2, kSpacing = 0.1;
+  const Mesh mesh = tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 9}, kRadius}}, 0.2);
+  for (const double wave : {1.1, 1.3, 1.6}) {
+    std::vector<Vec3> places;
+    std::vector<Segment> segments;
+    for (double z = 0; z <= 9; z += kSpacing)
+      places.push_back({0.08 * std::sin(2 * std::numbers::pi * z / wave), 0, z});
+    for (std::uint32_t v = 1; v < places.size(); ++v) segments.push_back({v - 1, v});
+    const std::vector<Vec3> tip(places.size());
+    const std::vector<char> has_tip(places.size(), 0);
+    centre_lines({.surface = mesh, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+                 places);
+    double farthest = 0;
+    for (const Vec3& at : places)
+      if (at.z > 1 && at.z < 8) farthest = std::max(farthest, std::hypot(at.x, at.y));
+    EXPECT_LT(farthest, 0.2 * kSpacing) << wave;
+  }
 }
 
 }  // namespace
