@@ -239,25 +239,31 @@ class CentreLines {
     for (std::size_t l = 0; l < lines_.size(); ++l) draw_straight(lines_[l], free[l]);
   }
 
+  // The direction of a line `gap` beyond its vertex n, away from `last`: it bends on as it does over two stretches on this
+  // side, as far as they are known.
+  Vec3 outward(const std::vector<std::uint32_t>& line, std::size_t n, std::size_t last, double stretch,
+               double gap) const {
+    const auto go_on = [&](std::size_t k) {
+      const Vec3 start = places_[line[k]];
+      while (norm(places_[line[k]] - start) < stretch && k != last) k += n > last ? std::size_t(-1) : 1;
+      return k;
+    };
+    const std::size_t far = go_on(n), farther = go_on(far);
+    const Vec3 here = places_[line[n]] - places_[line[far]],
+               there = places_[line[far]] - places_[line[farther]];
+    const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
+    return unit(unit(here) + bend * (unit(here) - unit(there)));
+  }
+
   // |(x - q) x t|^2, by the square of the limb's thickness there.
   void add_line(const std::vector<std::uint32_t>& line, const Free& free, bool from_last, Matrix3& sum,
                 Vec3& side) const {
     const std::size_t n = from_last ? free.last - 1 : free.first;
     const Vec3& q = places_[line[n]];
     const double ball = distance_.nearest(q);
-    const double stretch = 2 * kDirection * ball + input_.spacing;
-    const auto go_on = [&](std::size_t k) {
-      const Vec3 start = places_[line[k]];
-      while (norm(places_[line[k]] - start) < stretch && (from_last ? k > free.first : k + 1 < free.last))
-        k += from_last ? std::size_t(-1) : 1;
-      return k;
-    };
-    const std::size_t far = go_on(n), farther = go_on(far);
-    const Vec3 here = places_[line[far]] - q, there = places_[line[farther]] - places_[line[far]];
-    // It bends on towards the joint as it does from there on, as far as that is known.
     const double gap = norm(places_[from_last ? line.back() : line.front()] - q);
-    const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
-    const Vec3 t = unit(unit(here) + bend * (unit(here) - unit(there)));
+    const Vec3 t =
+        outward(line, n, from_last ? free.first : free.last - 1, 2 * kDirection * ball + input_.spacing, gap);
     if (t == Vec3{}) return;
     const double weight = ball * ball;
     const Vec3 to = q - dot(q, t) * t;
@@ -308,20 +314,17 @@ class CentreLines {
 
   // The line is gone along, and straight on beyond its end.
   void find_end(const std::vector<std::uint32_t>& line, bool from_last) {
-    const auto at = [&](std::size_t n) -> Vec3& {
-      return places_[line[from_last ? line.size() - 1 - n : n]];
-    };
+    const auto number = [&](std::size_t n) { return from_last ? line.size() - 1 - n : n; };
+    const auto at = [&](std::size_t n) -> Vec3& { return places_[line[number(n)]]; };
     const double around = kEndMoves * input_.spacing;
     std::size_t first = 0;
     while (first + 2 < line.size() && norm(at(first) - at(0)) < around) ++first;
-    std::size_t before = first;
-    const double stretch = 2 * kDirection * distance_.nearest(at(first)) + input_.spacing;
-    while (before + 1 < line.size() && norm(at(before) - at(first)) < stretch) ++before;
-    const Vec3 along = unit(at(first) - at(before));
+    const double stretch = kDirection * distance_.nearest(at(first)) + input_.spacing;
+    const Vec3 along = outward(line, number(first), number(line.size() - 1), stretch, 0);
     if (along == Vec3{}) return;
     const Vec3 from = at(first);
-    const double known = std::max({0.0, dot(input_.tip[line[from_last ? line.size() - 1 : 0]] - from, along),
-                                   dot(at(0) - from, along)});
+    const double known =
+        std::max({0.0, dot(input_.tip[line[number(0)]] - from, along), dot(at(0) - from, along)});
     const double step = input_.spacing / 4;
     const double farthest = known + around;
     double way = 0;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/unit.h"
 #include "core/curve/tubes.h"
 #include "core/solid/solid_membership.h"
 
@@ -62,6 +63,29 @@ TEST(CentreLines, OfAThickTubeAreItsAxisWhateverTheyBeganAs) {
       if (at.z > 1 && at.z < 8) farthest = std::max(farthest, std::hypot(at.x, at.y));
     EXPECT_LT(farthest, 0.2 * kSpacing) << wave;
   }
+}
+
+// A foot, twice as long as thick, at the end of a leg.
+TEST(CentreLines, EndAlongTheFootNotTheLeg) {
+  constexpr double kSpacing = 0.25;
+  const Vec3 hip{0, 0, 9}, ankle{0, 0, 0}, toe{2.2, 0, -0.8};
+  const Mesh mesh = tube_mesh(std::vector<Tube>{{hip, ankle, 1}, {ankle, toe, 1}}, 0.2);
+  std::vector<Vec3> places;
+  std::vector<Segment> segments;
+  const auto add = [&](const Vec3& from, const Vec3& to) {
+    for (double way = 0; way < norm(to - from); way += kSpacing)
+      places.push_back(from + (way / norm(to - from)) * (to - from));
+  };
+  add(hip, ankle);
+  add(ankle, toe);
+  for (std::uint32_t v = 1; v < places.size(); ++v) segments.push_back({v - 1, v});
+  const std::vector<Vec3> tip(places.size(), toe);
+  std::vector<char> has_tip(places.size(), 0);
+  has_tip.back() = 1;
+  centre_lines({.surface = mesh, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+               places);
+  const Vec3 end = unit(places.back() - places[places.size() - 2]);
+  EXPECT_GT(dot(end, unit(toe - ankle)), std::cos(std::numbers::pi / 6));
 }
 
 }  // namespace
