@@ -55,6 +55,11 @@ Sheet ridge_sheet_of(const Job& job) {
   sheet.points = cloud_of(found.vertices, in_frame);
   sheet.mesh = {sheet.points.place, found.triangles};
   sheet.segments = found.segments;
+  for (std::size_t v = 0; v < found.vertices.size(); ++v) {
+    const core::SkeletonKind kind = found.vertices[v].kind;
+    if (kind == core::SkeletonKind::kRidge || kind == core::SkeletonKind::kCurve)
+      sheet.strong.push_back(sheet.points.place[v]);
+  }
   sheet.betti = core::sheet_topology(sheet.mesh, sheet.segments).betti;
   return sheet;
 }

@@ -11,6 +11,7 @@ struct Sheet {
   Cloud points;  ///< `chords`: where two equal chords meet, on lattice edges; `ridge`: the mesh's vertices
   core::Mesh mesh;
   std::vector<core::Segment> segments;  ///< of the curves of `ridge`
+  std::vector<core::Vec3> strong;       ///< of `ridge`: the vertices that are no way's and no membrane's
   core::BettiNumbers betti;             ///< of both
 };
 
