@@ -47,10 +47,11 @@ class Order {
 };
 
 // A square is no anchor any more, nor what of its boundary bounds no other.
-void give_up(const DualComplex& complex, const CellSet& own, Cell square, Collapsing& collapsing) {
+// @param own anchors of other kinds, ascending.
+void give_up(const DualComplex& complex, std::span<const Cell> own, Cell square, Collapsing& collapsing) {
   collapsing.release(square);
   const auto release = [&](Cell cell) {
-    if (own.has(cell)) return;
+    if (std::binary_search(own.begin(), own.end(), cell)) return;
     for (const Cell coface : complex.cofaces(cell))
       if (collapsing.is_fixed(coface)) return;
     collapsing.release(cell);
@@ -61,15 +62,16 @@ void give_up(const DualComplex& complex, const CellSet& own, Cell square, Collap
 
 }  // namespace
 
-Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors,
-                   const CollapseOptions& options) {
+Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors, CollapseOptions options) {
   Order order(complex, shortest_ways(complex, anchors, options.cost, options.context));
+  std::vector<float>().swap(options.cost);  // the ways have what they say
   Collapsing collapsing(complex, options.context);
-  CellSet own(complex);
+  std::vector<Cell> own;
   for (const Anchor& anchor : anchors) {
-    if (DualComplex::dimension(anchor.cell) < 2) own.insert(anchor.cell);
+    if (DualComplex::dimension(anchor.cell) < 2) own.push_back(anchor.cell);
     collapsing.fix(anchor.cell);
   }
+  std::sort(own.begin(), own.end());
   collapsing.run(order);
   std::vector<Anchor> walls;
   for (const Anchor& anchor : anchors)

@@ -12,7 +12,7 @@ namespace affskel::core {
 
 struct CollapseOptions {
   /// Per cube: what a way through it costs for each spacing of its length, > 0; empty: 1 everywhere.
-  std::span<const float> cost;
+  std::vector<float> cost;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
@@ -32,8 +32,7 @@ struct Collapsed {
 /// tunnels and voids.  A function of complex, anchors and costs alone.
 /// @param anchors each cell once.
 /// @throws CoreError kCancelled when the context asks to stop.
-Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors,
-                   const CollapseOptions& options = {});
+Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors, CollapseOptions options = {});
 
 /// The Betti numbers' first: how many components cells form that are closed under taking boundaries.
 std::uint64_t count_components(const DualComplex& complex, const CellSet& cells);

@@ -24,45 +24,46 @@ class Collapsing {
   /// Of all cells of a complex.
   /// @throws CoreError kCancelled, here and in run(), when the context asks to stop.
   Collapsing(const DualComplex& complex, ExecutionContext* context)
-      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
+      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} * kPlaces, 0) {
     StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
-      state_[cell] = static_cast<std::uint8_t>(kThere | complex.cofaces(cell).count);
+      state(cell) = static_cast<std::uint8_t>(kThere | complex.cofaces(cell).count);
       stop.did(20);
     });
   }
 
   /// Of some, closed under taking boundaries.
   Collapsing(const DualComplex& complex, const CellSet& cells, ExecutionContext* context)
-      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} << 5, 0) {
+      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} * kPlaces, 0) {
     cells.for_each([&](Cell cell) {
-      state_[cell] |= kThere;
-      complex_.for_each_face(cell, [&](Cell face) { ++state_[face]; });
+      state(cell) |= kThere;
+      complex_.for_each_face(cell, [&](Cell face) { ++state(face); });
     });
   }
 
-  bool has(Cell cell) const { return (state_[cell] & kThere) != 0; }
+  bool has(Cell cell) const { return (state(cell) & kThere) != 0; }
 
   /// A cell may not be removed, nor its boundary.
   void fix(Cell cell) {
-    if ((state_[cell] & kFixed) != 0) return;
-    state_[cell] |= kFixed;
+    if ((state(cell) & kFixed) != 0) return;
+    state(cell) |= kFixed;
     complex_.for_each_face(cell, [&](Cell face) { fix(face); });
   }
   /// It may again; its boundary may not.
-  void release(Cell cell) { state_[cell] &= static_cast<std::uint8_t>(~kFixed); }
-  bool is_fixed(Cell cell) const { return (state_[cell] & kFixed) != 0; }
+  void release(Cell cell) { state(cell) &= static_cast<std::uint8_t>(~kFixed); }
+  bool is_fixed(Cell cell) const { return (state(cell) & kFixed) != 0; }
 
   /// Whether a cell may be removed and has exactly one coface.
-  bool is_free(Cell cell) const { return state_[cell] == (kThere | 1); }
+  bool is_free(Cell cell) const { return state(cell) == (kThere | 1); }
 
   /// How many cofaces a cell has.
-  std::uint32_t cofaces(Cell cell) const { return state_[cell] & static_cast<std::uint8_t>(kClaimed - 1); }
+  std::uint32_t cofaces(Cell cell) const { return state(cell) & static_cast<std::uint8_t>(kClaimed - 1); }
 
   CellSet cells() const {
     CellSet result(complex_);
-    for (Cell cell = 0; cell < state_.size(); ++cell)
+    for_each_name([&](Cell cell) {
       if (has(cell)) result.insert(cell);
+    });
     return result;
   }
 
@@ -75,7 +76,7 @@ class Collapsing {
   ///   removed.
   template <class Rules>
   void run(Rules& rules) {
-    for (Cell cell = 0; cell < state_.size(); ++cell) offer(cell, 0, rules);
+    for_each_name([&](Cell cell) { offer(cell, 0, rules); });
     go_on(rules);
   }
 
@@ -88,6 +89,17 @@ class Collapsing {
 
  private:
   static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20;
+  static constexpr std::size_t kPlaces = 27;  // of a cube; names go by 32
+
+  static std::size_t index(Cell cell) { return cell - (32 - kPlaces) * (cell >> 5); }
+  std::uint8_t& state(Cell cell) { return state_[index(cell)]; }
+  std::uint8_t state(Cell cell) const { return state_[index(cell)]; }
+
+  template <class Visit>
+  void for_each_name(const Visit& visit) const {
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
+      for (std::uint32_t place = 0; place < kPlaces; ++place) visit(DualComplex::name(cube, place));
+  }
 
   Cell coface_of(Cell cell) const {
     return complex_.find_coface(cell, [&](Cell coface) { return has(coface); });
@@ -114,15 +126,15 @@ class Collapsing {
       contested.clear();
       for (const Cell cell : wave) {
         const Cell coface = coface_of(cell);
-        if ((state_[coface] & kClaimed) != 0) contested.push_back(coface);
-        state_[coface] |= kClaimed;
+        if ((state(coface) & kClaimed) != 0) contested.push_back(coface);
+        state(coface) |= kClaimed;
       }
-      for (const Cell coface : contested) state_[coface] &= static_cast<std::uint8_t>(~kClaimed);
+      for (const Cell coface : contested) state(coface) &= static_cast<std::uint8_t>(~kClaimed);
       rivals.clear();
       for (const Cell cell : wave) {
         stop.did(100);
         const Cell coface = coface_of(cell);
-        if ((state_[coface] & kClaimed) != 0)
+        if ((state(coface) & kClaimed) != 0)
           remove(cell, coface, now, rules);
         else
           rivals.emplace_back(coface, cell);
@@ -139,10 +151,10 @@ class Collapsing {
 
   template <class Rules>
   void remove(Cell cell, Cell coface, double now, Rules& rules) {
-    state_[cell] = state_[coface] = 0;
+    state(cell) = state(coface) = 0;
     rules.removed(cell, coface, now);
     const auto lost = [&](Cell face) {
-      if (((--state_[face]) & ~kFixed) == kThere) rules.bared(face, now);
+      if (((--state(face)) & ~kFixed) == kThere) rules.bared(face, now);
       offer(face, now, rules);
     };
     complex_.for_each_face(coface, [&](Cell face) {
@@ -153,7 +165,7 @@ class Collapsing {
 
   const DualComplex& complex_;
   ExecutionContext* context_;
-  std::vector<std::uint8_t> state_;  // by a cell's name: these, and how many cofaces it has
+  std::vector<std::uint8_t> state_;  // per place of a cube, at own names: these, and how many cofaces
   BucketQueue<Cell> queue_;          // free when they came
 };
 

@@ -29,7 +29,6 @@ constexpr int kRounds = 5;        // sections are across lines that the last rou
 constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
 constexpr double kFitted = 5;     // vertices that tell of a parabola
 constexpr double kJoint = 1.5;    // balls: nearer to a joint a section has a part of the other limbs
-constexpr double kSeen = 4;       // radii: of the rays that see a section
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
 constexpr double kRound = 0.75, kFlat = 0.55;
@@ -173,7 +172,7 @@ class CentreLines {
     shift.ball = ball_[line[n]];
     const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
     if (across == Vec3{} || !(shift.ball > 0)) return shift;
-    const LimbSection section = sections_.at(at, across, kSeen * shift.ball);
+    const LimbSection section = sections_.at(at, across, LimbSections::kSeen * shift.ball);
     const double away = norm(section.centre - at);
     if (away >= shift.ball && !inside(section.centre)) return shift;
     shift.way = section.centre - at;

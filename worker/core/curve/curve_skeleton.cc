@@ -14,7 +14,7 @@
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"
 #include "core/curve/joined_links.h"
-#include "core/curve/limb_radii.h"
+#include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
@@ -206,13 +206,14 @@ void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& c
 
 void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
   give_the_rest(lattice, curve);
-  const auto mesh_place = [&](const Vec3& at) {
-    return solid.centre + solid.scale() * scaled_place(lattice, (1 / lattice.spacing) * at);
-  };
-  std::vector<Vec3> places, in_mesh;
+  const Mesh surface = surface_in_frame(solid, lattice);
+  const LimbSections sections(surface);
+  const DistanceToMesh distance(surface);
+  std::vector<Vec3> places;
+  std::vector<double> balls;
   for (const SheetVertex& vertex : curve.vertices) {
     places.push_back(vertex.position);
-    in_mesh.push_back(mesh_place(vertex.position));
+    balls.push_back(distance.nearest(vertex.position));
   }
   const Groups<std::uint32_t> neighbours = neighbours_along(places.size(), curve.segments);
   const double one = 1 / static_cast<double>(lattice.points);
@@ -229,11 +230,11 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   };
   curve.slice =
       for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, neighbours, at, nearest); });
-  const std::vector<double> radius =
-      limb_radii({in_mesh, curve.segments, curve.slice, curve.slice, curve.distance, solid.volume});
-  const LimbTubes tubes(in_mesh, curve.segments, curve.distance, radius);
-  curve.share = for_each(
-      [&](const Vec3& at, std::uint32_t nearest) { return tubes.vertex_of(mesh_place(at), nearest); });
+  const LimbTubes tubes(places, curve.segments, balls,
+                        [&](const Vec3& place, const Vec3& u, const Vec3& v, double reach) {
+                          return sections.ellipse(place, u, v, reach);
+                        });
+  curve.share = for_each([&](const Vec3& at, std::uint32_t nearest) { return tubes.vertex_of(at, nearest); });
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 

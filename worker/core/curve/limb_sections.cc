@@ -5,20 +5,14 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/basis.h"
 #include "core/base/plain_math.h"
-#include "core/base/unit.h"
 #include "core/mesh/box.h"
 
 namespace affskel::core {
 namespace {
 
-// A unit vector at right angles to a unit vector.
-Vec3 beside(const Vec3& a) {
-  const Vec3 axis = std::abs(a.x) <= std::abs(a.y) && std::abs(a.x) <= std::abs(a.z) ? Vec3{1, 0, 0}
-                    : std::abs(a.y) <= std::abs(a.z)                                 ? Vec3{0, 1, 0}
-                                                                                     : Vec3{0, 0, 1};
-  return unit(cross(a, axis));
-}
+constexpr double kNothing = 1e-12;  // of the squared reach: a ray that short says nothing more
 
 // The boxes about a place that its plane goes through.
 struct CutBoxes {
@@ -48,10 +42,9 @@ LimbSections::LimbSections(const Mesh& surface) : surface_(surface), tree_(boxes
   }
 }
 
-LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach) const {
-  const Vec3 u = beside(across), v = cross(across, u);
-  std::array<Vec3, kRays> directions;
-  for (std::size_t n = 0; n < kRays; ++n) directions[n] = turns_[n][0] * u + turns_[n][1] * v;
+LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const Vec3& v,
+                                         double reach) const {
+  const Vec3 across = cross(u, v);
   Rays length;
   length.fill(reach);
   const auto cut_by = [&](const Vec3& a, const Vec3& b) {  // relative to the place, in the plane
@@ -60,8 +53,9 @@ LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach
       const double left = turns_[n][0] * p[1] - turns_[n][1] * p[0];
       const double right = turns_[n][0] * q[1] - turns_[n][1] * q[0];
       if ((left < 0) == (right < 0)) continue;
-      const Vec3 at = a + (left / (left - right)) * (b - a);
-      const double way = dot(at, directions[n]);
+      const double part = left / (left - right);
+      const double way =
+          turns_[n][0] * (p[0] + part * (q[0] - p[0])) + turns_[n][1] * (p[1] + part * (q[1] - p[1]));
       if (way >= 0) length[n] = std::min(length[n], way);
     }
   };
@@ -83,23 +77,48 @@ LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach
     }
     if (count == 2) cut_by(ends[0], ends[1]);
   });
-  return section_of(place, directions, length);
-}
-
-LimbSection LimbSections::section_of(const Vec3& place, const std::array<Vec3, kRays>& directions,
-                                     Rays length) const {
   Rays sorted = length;
   std::nth_element(sorted.begin(), sorted.begin() + kRays / 2, sorted.end());
-  const double longest = kWidest * sorted[kRays / 2];
+  for (double& way : length) way = std::min(way, kWidest * sorted[kRays / 2]);
+  return length;
+}
+
+LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach) const {
+  const Vec3 u = unit_beside(across), v = cross(across, u);
+  const Rays length = outline(place, u, v, reach);
   double squares = 0;
   Vec3 moment;
   for (std::size_t n = 0; n < kRays; ++n) {
-    const double way = std::min(length[n], longest);
+    const double way = length[n];
     squares += way * way;
-    moment = moment + (2.0 / 3 * way * way * way) * directions[n];
+    moment = moment + (2.0 / 3 * way * way * way) * (turns_[n][0] * u + turns_[n][1] * v);
   }
   if (!(squares > 0)) return {place, 0};
   return {place + (1 / squares) * moment, std::sqrt(squares / static_cast<double>(kRays))};
+}
+
+LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const {
+  const Rays length = outline(place, u, v, reach);
+  LimbEllipse ellipse;
+  for (std::size_t n = 0; n < kRays; ++n) {
+    const double one = 1 / (kRays * std::max(length[n] * length[n], kNothing * reach * reach));
+    const auto [x, y] = turns_[n];
+    ellipse.mean += one;
+    ellipse.cosine += 2 * one * (x * x - y * y);
+    ellipse.sine += 4 * one * x * y;
+  }
+  constexpr double kMost = (kFlattest * kFlattest - 1) / (kFlattest * kFlattest + 1);
+  const double flatness =
+      std::sqrt(ellipse.cosine * ellipse.cosine + ellipse.sine * ellipse.sine) / ellipse.mean;
+  if (flatness > kMost) {
+    ellipse.cosine *= kMost / flatness;
+    ellipse.sine *= kMost / flatness;
+  }
+  return ellipse;
+}
+
+double LimbEllipse::radius() const {
+  return 1 / std::sqrt(std::sqrt(mean * mean - cosine * cosine - sine * sine));
 }
 
 }  // namespace affskel::core

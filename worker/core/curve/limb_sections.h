@@ -9,6 +9,15 @@
 
 namespace affskel::core {
 
+/// The ellipse about a place that a section is like, by its polar equation: 1 / r^2 = mean + cosine cos 2a + sine sin 2a,
+/// the best in the squares of 1 / r^2: a gap that a few rays leave by, where another limb begins, hardly changes it.
+struct LimbEllipse {
+  double mean = 0, cosine = 0, sine = 0;
+
+  /// Of a disc as large.
+  double radius() const;
+};
+
 /// The section of a limb, as seen from a place within.
 struct LimbSection {
   Vec3 centre;        ///< its centroid
@@ -22,6 +31,7 @@ struct LimbSection {
 class LimbSections {
  public:
   static constexpr double kWidest = 2;
+  static constexpr double kSeen = 4;  ///< balls: what users take for the reach of rays
 
   /// @param surface closed.
   explicit LimbSections(const Mesh& surface);
@@ -31,11 +41,17 @@ class LimbSections {
   /// @param reach of the rays, > 0.
   LimbSection at(const Vec3& place, const Vec3& across, double reach) const;
 
+  /// @param u, v of the plane, unit vectors at right angles.
+  /// @return of which no radius is more than kFlattest times another.
+  LimbEllipse ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
+
+  static constexpr double kFlattest = 3;
+
  private:
   static constexpr std::size_t kRays = 32;
   using Rays = std::array<double, kRays>;
 
-  LimbSection section_of(const Vec3& place, const std::array<Vec3, kRays>& directions, Rays length) const;
+  Rays outline(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
 
   const Mesh& surface_;
   BoxTree tree_;

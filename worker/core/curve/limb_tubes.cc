@@ -1,32 +1,49 @@
 #include "core/curve/limb_tubes.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/base/basis.h"
+#include "core/base/unit.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
 namespace {
 
-// Of limbs that are about as thick neither is a part of the other.
+// Of limbs that are about as thick neither is a part of the other; a section that is larger than most is open.
 constexpr double kClearly = 1.1;
 
-constexpr double kUnreached = std::numeric_limits<double>::infinity();
+constexpr std::size_t kRings = 4;  // vertices on either side whose outlines tell that of a joint
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double distance_to(const Box& box, const Vec3& at) {
+  const auto out = [&](std::size_t k, double x) { return std::max({0.0, box.low[k] - x, x - box.high[k]}); };
+  return norm({out(0, at.x), out(1, at.y), out(2, at.z)});
+}
 
 }  // namespace
 
 LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments,
-                     std::span<const double> ball, std::span<const double> radius)
+                     std::span<const double> ball, const EllipseAt& ellipse_at)
     : places_(places),
       ball_(ball),
-      radius_(radius),
       limb_of_(places.size(), kNone),
+      rank_(places.size(), 0),
+      is_shared_(places.size(), 0),
       at_joint_(places.size()) {
   for (auto& line : polylines(places.size(), segments)) {
     const auto number = static_cast<std::uint32_t>(limbs_.size());
-    for (const std::uint32_t v : line) limb_of_[v] = number;
+    for (std::uint32_t n = 0; n < line.size(); ++n) {
+      limb_of_[line[n]] = number;
+      rank_[line[n]] = n;
+    }
     for (const std::uint32_t v : {line.front(), line.back()}) at_joint_[v].push_back(number);
     limbs_.push_back({.vertices = std::move(line)});
   }
@@ -36,47 +53,125 @@ LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segm
     else
       limb_of_[v] = kNone;
   }
-  for (Limb& limb : limbs_) measure(limb);
+  for (Limb& limb : limbs_) {
+    if (!is_joint(limb.end(0)) && !is_joint(limb.end(1))) continue;
+    add_rings(ellipse_at, limb);
+    go_on_into_joints(limb);
+  }
   for (Limb& limb : limbs_)
     for (std::size_t end = 0; end < 2; ++end) compare(limb, end);
   for (Limb& limb : limbs_) find_within(limb);
-  in_thicker_.assign(places.size(), kNone);
   for (const Limb& limb : limbs_)
     for (const auto& thicker : limb.thicker)
       for (const std::uint32_t other : thicker)
         for (const std::uint32_t v : limb.vertices)
-          if (in_thicker_[v] == kNone && !is_joint(v) && holds(limbs_[other], places[v]))
-            in_thicker_[v] = other;
+          if (!is_shared_[v] && holds(limbs_[other], places[v])) is_shared_[v] = 1;
 }
 
-double LimbTubes::thickness_of(std::uint32_t vertex) const {
-  return std::clamp(radius_[vertex], ball_[vertex], kRoundest * ball_[vertex]);
-}
-
-void LimbTubes::measure(Limb& limb) const {
+// The planes turn with the line, and not about it, so that outlines can be compared.
+void LimbTubes::add_rings(const EllipseAt& ellipse_at, Limb& limb) const {
   const auto& line = limb.vertices;
-  for (const std::uint32_t v : line) limb.tube.push_back(thickness_of(v));
-  std::vector<double> sorted = limb.tube;
-  std::sort(sorted.begin(), sorted.end());
-  limb.size = sorted[sorted.size() / 2];
-  for (std::size_t end = 0; end < 2; ++end) {
-    const std::uint32_t joint = limb.end(end);
-    if (!is_joint(joint)) continue;
-    const auto at = [&](std::size_t n) { return end == 0 ? n : line.size() - 1 - n; };
-    std::size_t first = 1;
-    while (first < line.size() && norm(places_[line[at(first)]] - places_[joint]) < kJoint * ball_[joint])
-      ++first;
-    // In a wide chest an arm's line has large balls beyond the joint, too.
-    const double thickness =
-        std::min(kRoundest * limb.size, first < line.size() ? thickness_of(line[at(first)]) : sorted.front());
-    for (std::size_t n = 0; n < first; ++n)
-      limb.tube[at(n)] = std::min(kRoundest * ball_[line[at(n)]], thickness);
-  }
+  const auto along = [&](std::size_t n) {
+    std::size_t low = n, high = n;
+    const auto is_near = [&](std::size_t k) {
+      return norm(places_[line[k]] - places_[line[n]]) < ball_[line[n]];
+    };
+    while (low > 0 && is_near(low)) --low;
+    while (high + 1 < line.size() && is_near(high)) ++high;
+    return unit(places_[line[high]] - places_[line[low]]);
+  };
+  Vec3 before;
   for (std::size_t n = 0; n < line.size(); ++n) {
-    const Vec3 reach{limb.tube[n], limb.tube[n], limb.tube[n]};
-    limb.box.include(places_[line[n]] - reach);
-    limb.box.include(places_[line[n]] + reach);
+    const Vec3 t = along(n);
+    Vec3 u = unit(before - dot(before, t) * t);
+    if (u == Vec3{}) u = unit_beside(t);
+    before = u;
+    Ring ring{u, cross(t, u), {}};
+    const double ball = ball_[line[n]];
+    ring.ellipse = ellipse_at(places_[line[n]], ring.u, ring.v, LimbSections::kSeen * ball);
+    ring.thickness = std::clamp(ring.ellipse.radius(), ball, kRoundest * ball);
+    limb.rings.push_back(ring);
   }
+}
+
+// How many vertices from an end lie near the joint there; 0 where none is.
+std::size_t LimbTubes::in_joint(const Limb& limb, std::size_t end) const {
+  const std::uint32_t joint = limb.end(end);
+  if (!is_joint(joint)) return 0;
+  std::size_t count = 1;
+  while (count + 1 < limb.vertices.size() &&
+         norm(places_[limb.at(end, count)] - places_[joint]) < kJoint * ball_[joint])
+    ++count;
+  return count;
+}
+
+// Where a limb leaves its joints: vertices from either end; where it does not, its middle, or its free end.
+LimbTubes::Free LimbTubes::free_part(const Limb& limb) const {
+  const std::size_t last = limb.vertices.size() - 1;
+  Free free{{in_joint(limb, 0), in_joint(limb, 1)}};
+  if (free.from[0] + free.from[1] > last) {
+    free.is_any = false;
+    free.from[0] = last * free.from[0] / (free.from[0] + free.from[1]);
+    free.from[1] = last - free.from[0];
+    return free;
+  }
+  std::vector<double> radii;
+  for (std::size_t n = free.from[0]; n + free.from[1] <= last; ++n)
+    radii.push_back(limb.rings[n].ellipse.radius());
+  const double open = kClearly * median(std::move(radii));
+  for (std::size_t end = 0; end < 2; ++end)
+    while (free.from[end] > 0 && free.from[0] + free.from[1] < last &&
+           limb.rings[limb.index(end, free.from[end])].ellipse.radius() > open)
+      ++free.from[end];
+  return free;
+}
+
+// What it is there, and as its ring.
+LimbTubes::Ring LimbTubes::leaving(const Limb& limb, const Free& free, std::size_t end) const {
+  const std::size_t last = limb.vertices.size() - 1, n = limb.index(end, free.from[end]);
+  Ring ring = limb.rings[n];
+  if (!free.is_any) {
+    ring.ellipse = {1 / (ring.thickness * ring.thickness), 0, 0};
+    return ring;
+  }
+  const std::size_t low = std::max(free.from[0], n < kRings ? 0 : n - kRings);
+  const std::size_t high = std::min(last - free.from[1], n + kRings);
+  const double share = 1 / static_cast<double>(high - low + 1);
+  ring.ellipse = {};
+  for (std::size_t k = low; k <= high; ++k) {
+    const LimbEllipse& one = limb.rings[k].ellipse;
+    ring.ellipse.mean += share * one.mean;
+    ring.ellipse.cosine += share * one.cosine;
+    ring.ellipse.sine += share * one.sine;
+  }
+  return ring;
+}
+
+void LimbTubes::go_on_into_joints(Limb& limb) {
+  const Free free = free_part(limb);
+  const std::array<Ring, 2> leaving{this->leaving(limb, free, 0), this->leaving(limb, free, 1)};
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double ball = ball_[limb.at(end, free.from[end])];
+    for (std::size_t n = 0; n < free.from[end]; ++n) {
+      Ring& ring = limb.rings[limb.index(end, n)];
+      const double own = kRoundest * ball_[limb.at(end, n)], share = ball > own ? ball / own : 1;
+      const LimbEllipse& there = leaving[end].ellipse;
+      ring.ellipse = {share * share * there.mean, share * share * there.cosine, share * share * there.sine};
+      ring.thickness = std::min(leaving[end].thickness, own);
+      is_shared_[limb.at(end, n)] = 1;
+    }
+  }
+  std::vector<double> thickness;
+  for (std::size_t n = 0; n < limb.vertices.size(); ++n) {
+    const Ring& ring = limb.rings[n];
+    thickness.push_back(ring.thickness);
+    const auto& [mean, cosine, sine] = ring.ellipse;
+    const double most =
+        std::max(ring.thickness, 1 / std::sqrt(mean - std::sqrt(cosine * cosine + sine * sine)));
+    limb.box.include(places_[limb.vertices[n]] - Vec3{most, most, most});
+    limb.box.include(places_[limb.vertices[n]] + Vec3{most, most, most});
+  }
+  limb.size = median(std::move(thickness));
 }
 
 void LimbTubes::compare(Limb& limb, std::size_t end) const {
@@ -88,6 +183,9 @@ void LimbTubes::compare(Limb& limb, std::size_t end) const {
     const bool is_thicker = limbs_[other].size > kClearly * limb.size;
     (is_thicker ? limb.thicker : limb.others)[end].push_back(other);
   }
+  // Only the thickest goes on beyond its joint.
+  if (!limb.thicker[end].empty())
+    limb.rings[limb.index(end, 0)].thickness = 0.5 * norm(places_[limb.at(end, 1)] - places_[limb.end(end)]);
 }
 
 // Whether a link is a part of a longer limb, of several of the thickest.
@@ -108,59 +206,83 @@ void LimbTubes::find_within(Limb& limb) const {
   }
 }
 
-bool LimbTubes::holds(const Limb& limb, const Vec3& at) const {
-  if (!limb.box.meets(Box{{at.x, at.y, at.z}, {at.x, at.y, at.z}})) return false;
+// How far a place is outside the tube at one of its vertices, along the way from there; within it less than 0.
+double LimbTubes::depth_below(const Limb& limb, std::size_t n, const Vec3& at) const {
+  const Ring& ring = limb.rings[n];
+  const Vec3 way = at - places_[limb.vertices[n]];
+  const double square = dot(way, way), u = dot(way, ring.u), v = dot(way, ring.v);
+  if (!(square > 0)) return -ring.thickness;
+  const auto& [mean, cosine, sine] = ring.ellipse;
+  const double along = std::max(0.0, square - u * u - v * v) / (ring.thickness * ring.thickness);
+  const double across = mean * (u * u + v * v) + cosine * (u * u - v * v) + sine * 2 * u * v;
+  return std::sqrt(square) * (1 - 1 / std::sqrt(across + along));
+}
+
+std::size_t LimbTubes::nearest_in(const Limb& limb, const Vec3& at) const {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 0;
   for (std::size_t n = 0; n < limb.vertices.size(); ++n) {
     const Vec3 way = at - places_[limb.vertices[n]];
-    if (dot(way, way) < limb.tube[n] * limb.tube[n]) return true;
-  }
-  return false;
-}
-
-// The first whose tube holds a place.
-std::uint32_t LimbTubes::holder(const std::array<std::vector<std::uint32_t>, 2>& limbs,
-                                const Vec3& at) const {
-  for (const auto& round : limbs)
-    for (const std::uint32_t limb : round)
-      if (holds(limbs_[limb], at)) return limb;
-  return kNone;
-}
-
-// Joints left out; where there is nothing else, what was nearest before.
-std::uint32_t LimbTubes::nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at,
-                                    std::uint32_t before) const {
-  double least = kUnreached;
-  std::uint32_t nearest = before;
-  for (const std::uint32_t v : vertices) {
-    const Vec3 way = at - places_[v];
-    if (is_joint(v) || dot(way, way) >= least) continue;
+    if (dot(way, way) >= least) continue;
     least = dot(way, way);
-    nearest = v;
+    nearest = n;
   }
   return nearest;
 }
 
+// Of a joint the vertex beside it, the joint where that is one, too.
+std::uint32_t LimbTubes::own_vertex(const Limb& limb, std::size_t n) const {
+  const std::size_t last = limb.vertices.size() - 1;
+  if (is_joint(limb.vertices[n])) n = n == 0 ? 1 : last - 1;
+  return limb.vertices[n];
+}
+
+bool LimbTubes::holds(const Limb& limb, const Vec3& at) const {
+  return distance_to(limb.box, at) <= 0 && depth_below(limb, nearest_in(limb, at), at) < 0;
+}
+
 // A joint's next vertex, the nearest that is none; the joint where there is none.
 std::uint32_t LimbTubes::off_joint(std::uint32_t vertex, const Vec3& at) const {
-  std::vector<std::uint32_t> next;
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t nearest = vertex;
   for (const std::uint32_t n : at_joint_[vertex]) {
-    const auto& line = limbs_[n].vertices;
-    if (line.front() == vertex) next.push_back(line[1]);
-    if (line.back() == vertex) next.push_back(line[line.size() - 2]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::uint32_t next = limbs_[n].at(end, 1);
+      const double way = norm(at - places_[next]);
+      if (limbs_[n].end(end) != vertex || is_joint(next) || way >= least) continue;
+      least = way;
+      nearest = next;
+    }
   }
-  return nearest_of(next, at, vertex);
+  return nearest;
 }
 
 std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const {
   if (is_joint(nearest)) nearest = off_joint(nearest, at);
   if (limb_of_[nearest] == kNone) return nearest;
   const Limb& limb = limbs_[limb_of_[nearest]];
-  if (limb.within != kNone) return nearest_of(limbs_[limb.within].vertices, at, nearest);
-  if (const std::uint32_t thicker = holder(limb.thicker, at); thicker != kNone)
-    return nearest_of(limbs_[thicker].vertices, at, nearest);
-  std::uint32_t owner = holder(limb.others, at);
-  if (owner == kNone) owner = in_thicker_[nearest];
-  return owner == kNone || holds(limb, at) ? nearest : nearest_of(limbs_[owner].vertices, at, nearest);
+  const auto vertex_in = [&](const Limb& other) { return own_vertex(other, nearest_in(other, at)); };
+  if (limb.within != kNone) return vertex_in(limbs_[limb.within]);
+  for (const auto& thicker : limb.thicker)
+    for (const std::uint32_t other : thicker)
+      if (has_vertex(limbs_[other]) && holds(limbs_[other], at)) return vertex_in(limbs_[other]);
+  if (!is_shared_[nearest]) return nearest;
+  double least = depth_below(limb, rank_[nearest], at);
+  std::uint32_t owner = nearest;
+  for (const auto* rounds : {&limb.thicker, &limb.others}) {
+    for (const auto& round : *rounds) {
+      for (const std::uint32_t number : round) {
+        const Limb& other = limbs_[number];
+        if (other.within != kNone || !has_vertex(other) || distance_to(other.box, at) >= least) continue;
+        const std::size_t n = nearest_in(other, at);
+        const double depth = depth_below(other, n, at);
+        if (depth >= least) continue;
+        least = depth;
+        owner = own_vertex(other, n);
+      }
+    }
+  }
+  return owner;
 }
 
 }  // namespace affskel::core

@@ -3,28 +3,34 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/base/vec3.h"
+#include "core/curve/limb_sections.h"
 #include "core/mesh/box.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
 
-/// Parts a solid where its limbs meet.  Each limb is a tube about its line, with a joint as thick as it is where it
-/// leaves it (kJoint balls away): the largest ball about a joint is wider than any of its limbs.  What lies there
-/// in the tube of a limb that is thicker, all in all, belongs to that; what lies in one tube alone to its limb;
-/// what lies in none, as at the sides of a chest, to the limb in whose tube the line that it is nearest to is.  So
-/// an arm begins where it leaves the trunk, equal limbs share their joint evenly, and a joint itself has nothing.
+/// Parts a solid where its limbs meet.  Each limb is a tube about its line, whose sections are ellipses like the limb's own: a flat
+/// chest is a flat tube.  Towards a joint, where sections open into other limbs, it goes on with the one that it has
+/// where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an ellipsoid.  What
+/// lies there in the tube of a limb that is thicker, all in all, belongs to that; else it belongs to the limb whose tube it
+/// lies deepest in, or is nearest to.  So an arm begins where it leaves the trunk, from the armpit to the top of the
+/// shoulder, equal limbs share their joint evenly, and a joint itself has nothing.
 /// A link within the tube of a longer limb, whole, has nothing either.  Keeps references to its arguments.
 class LimbTubes {
  public:
-  /// @param places, ball, radius per vertex: distance to the surface, and of a disc as large as the section.  A limb is as
-  ///   thick as that disc, but no more than kRoundest balls: what hangs on a plate begins on its face.
+  /// See LimbSections::ellipse().
+  using EllipseAt = std::function<LimbEllipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach)>;
+
+  /// @param places, ball per vertex, and its distance to the surface.  A limb is as thick as a disc as large as its
+  ///   section, but no more than kRoundest balls: what hangs on a plate begins on its face.
   /// @param segments as for polylines().
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
-            std::span<const double> radius);
+            const EllipseAt& ellipse_at);
 
   /// The vertex that a place belongs to.
   /// @param nearest the vertex of the lines that it is nearest to.
@@ -35,34 +41,53 @@ class LimbTubes {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  struct Ring {
+    Vec3 u, v;  // of the section's plane
+    LimbEllipse ellipse;
+    double thickness = 0;
+  };
   struct Limb {
     std::vector<std::uint32_t> vertices;
-    std::vector<double> tube = {};  // per vertex: its radius
-    double size = 0;                // how thick it is in the middle of its vertices
+    std::vector<Ring> rings = {};  // per vertex; none of a line by itself
+    double size = 0;               // how thick it is in the middle of its vertices
     std::array<std::vector<std::uint32_t>, 2> thicker = {},
                                               others = {};  // that meet it there, the thickest first
     Box box = {};                                           // round the tube
     std::uint32_t within = kNone;                           // the limb that it is a part of
 
     std::uint32_t end(std::size_t which) const { return which == 0 ? vertices.front() : vertices.back(); }
+    std::uint32_t at(std::size_t which, std::size_t n) const {  // the n-th from an end
+      return vertices[index(which, n)];
+    }
+    std::size_t index(std::size_t which, std::size_t n) const {
+      return which == 0 ? n : vertices.size() - 1 - n;
+    }
   };
 
-  double thickness_of(std::uint32_t vertex) const;
   bool is_joint(std::uint32_t vertex) const { return !at_joint_[vertex].empty(); }
-  void measure(Limb& limb) const;
+  void add_rings(const EllipseAt& ellipse_at, Limb& limb) const;
+  std::size_t in_joint(const Limb& limb, std::size_t end) const;
+  struct Free {
+    std::array<std::size_t, 2> from;  // vertices from either end, where it leaves its joint
+    bool is_any = true;               // else all of it lies in joints
+  };
+  Free free_part(const Limb& limb) const;
+  Ring leaving(const Limb& limb, const Free& free, std::size_t end) const;
+  void go_on_into_joints(Limb& limb);
   void compare(Limb& limb, std::size_t end) const;
   void find_within(Limb& limb) const;
+  double depth_below(const Limb& limb, std::size_t n, const Vec3& at) const;
+  std::size_t nearest_in(const Limb& limb, const Vec3& at) const;
+  std::uint32_t own_vertex(const Limb& limb, std::size_t n) const;
+  bool has_vertex(const Limb& limb) const { return !is_joint(own_vertex(limb, 0)); }
   bool holds(const Limb& limb, const Vec3& at) const;
-  std::uint32_t holder(const std::array<std::vector<std::uint32_t>, 2>& limbs, const Vec3& at) const;
-  std::uint32_t nearest_of(std::span<const std::uint32_t> vertices, const Vec3& at,
-                           std::uint32_t before) const;
   std::uint32_t off_joint(std::uint32_t vertex, const Vec3& at) const;
 
   std::span<const Vec3> places_;
-  std::span<const double> ball_, radius_;
+  std::span<const double> ball_;
   std::vector<Limb> limbs_;
-  std::vector<std::uint32_t> limb_of_;                // per vertex that is no joint
-  std::vector<std::uint32_t> in_thicker_;             // per vertex: the thicker limb in whose tube it is
+  std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
+  std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube
   std::vector<std::vector<std::uint32_t>> at_joint_;  // per joint: its limbs, one that comes back to it twice
 };
 

@@ -171,8 +171,8 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .limbs = basis.limbs,
                                .radius = basis.radius};
   const RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
-  const std::vector<float> cost = costs_of_ways(field, basis.radius);
-  Collapsed left = collapse(basis.complex, chosen.anchors, {.cost = cost, .context = options.context});
+  Collapsed left = collapse(basis.complex, chosen.anchors,
+                            {.cost = costs_of_ways(field, basis.radius), .context = options.context});
   if (count_components(basis.complex, left.cells) != basis.topology.components)
     throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
   drop(basis.complex, chosen.left_out, left.cells);

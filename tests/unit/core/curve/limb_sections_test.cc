@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/base/unit.h"
+#include "core/curve/tubes.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
@@ -46,6 +48,26 @@ TEST(LimbSections, RaysAreNoLongerThanTwiceTheMiddleOne) {
   const LimbSection section = LimbSections(box).at({10, 0.5, 0.5}, {0, 0, 1}, 30);
   EXPECT_NEAR(section.centre.x, 10, 1e-9);
   EXPECT_LT(section.radius, 2);
+}
+
+TEST(LimbSections, AnEllipseIsFound) {
+  Mesh flat = make_cylinder(1, 8, 128);
+  for (Vec3& p : flat.points) p.x *= 2;
+  const LimbEllipse ellipse = LimbSections(flat).ellipse({0, 0, 4}, {1, 0, 0}, {0, 1, 0}, 9);
+  EXPECT_NEAR(ellipse.radius(), std::sqrt(2), 0.01);
+  EXPECT_NEAR(ellipse.mean, 0.5 * (1 + 0.25), 0.01);
+  EXPECT_NEAR(ellipse.cosine, 0.5 * (0.25 - 1), 0.01);
+  EXPECT_NEAR(ellipse.sine, 0, 0.01);
+}
+
+// Where an arm is open to its trunk some rays leave.
+TEST(LimbSections, AnOpenSideHardlyChangesTheEllipse) {
+  const Mesh solid =
+      tube_mesh(std::vector<Tube>{{{0, 0, -5}, {0, 0, 5}, 1}, {{0, 0, 0}, {5, 0, 0}, 0.3}}, 0.15);
+  const LimbSections sections(solid);
+  const LimbEllipse open = sections.ellipse({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 4);
+  EXPECT_NEAR(open.radius(), 1, 0.06);
+  EXPECT_LT(1 / std::sqrt(open.mean + open.cosine), 1.2) << "towards the arm";
 }
 
 }  // namespace

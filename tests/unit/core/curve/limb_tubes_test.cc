@@ -2,32 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
-#include <vector>
+#include <functional>
+
+#include "core/curve/drawn_lines.h"
 
 namespace affskel::core {
 namespace {
 
-// Tubed from a place outwards, in steps.
-struct Tubed {
-  std::vector<Vec3> places;
-  std::vector<Segment> segments;
-  std::vector<double> ball;
+struct Tubed : DrawnLines {
+  // A limb is round; along one axis it may be so many times as wide.
+  std::function<Vec3(const Vec3& place)> wide = [](const Vec3&) { return Vec3{1, 1, 1}; };
 
-  std::uint32_t add(const Vec3& at, double thick) {
-    places.push_back(at);
-    ball.push_back(thick);
-    return static_cast<std::uint32_t>(places.size() - 1);
-  }
-  // @returns the last vertex.
-  std::uint32_t go(std::uint32_t from, const Vec3& step, int steps, double thick) {
-    for (int n = 0; n < steps; ++n) {
-      const std::uint32_t to = add(places[from] + step, thick);
-      segments.push_back({from, to});
-      from = to;
-    }
-    return from;
-  }
   std::uint32_t nearest(const Vec3& at) const {
     std::uint32_t best = 0;
     for (std::uint32_t v = 0; v < places.size(); ++v)
@@ -35,7 +22,16 @@ struct Tubed {
     return best;
   }
   Vec3 owner(const Vec3& at) const {
-    return places[LimbTubes(places, segments, ball, ball).vertex_of(at, nearest(at))];
+    const auto ellipse = [&](const Vec3& place, const Vec3& u, const Vec3& v, double) {
+      const double radius = ball[nearest(place)];
+      const Vec3 axes = radius * wide(place);
+      const auto inverse_square = [&](const Vec3& a, const Vec3& b) {
+        return a.x * b.x / (axes.x * axes.x) + a.y * b.y / (axes.y * axes.y) + a.z * b.z / (axes.z * axes.z);
+      };
+      const double uu = inverse_square(u, u), vv = inverse_square(v, v);
+      return LimbEllipse{0.5 * (uu + vv), 0.5 * (uu - vv), inverse_square(u, v)};
+    };
+    return places[LimbTubes(places, segments, ball, ellipse).vertex_of(at, nearest(at))];
   }
 };
 
@@ -56,6 +52,36 @@ TEST(LimbTubes, AnArmBeginsAtTheTubeOfItsTrunk) {
     EXPECT_EQ(lines.owner({1.97, 0, z}).x, 0) << z;
     EXPECT_GT(lines.owner({2.03, 0, z}).x, 1) << z << ": the ball about the joint is wider than the trunk";
   }
+}
+
+// A chest is twice as wide as deep.
+TEST(LimbTubes, AnArmBeginsAtTheSideOfAFlatTrunk) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 1.1);
+  lines.go(joint, {0, 0, 0.1}, 100, 1);
+  lines.go(joint, {0, 0, -0.1}, 100, 1);
+  lines.go(joint, {0.1, 0, 0}, 100, 0.5);
+  lines.wide = [](const Vec3& place) { return Vec3{place.x == 0 ? 2. : 1., 1, 1}; };
+  for (const double z : {-0.4, 0., 0.4}) {
+    EXPECT_EQ(lines.owner({1.97, 0, z}).x, 0) << z;
+    EXPECT_GT(lines.owner({2.03, 0, z}).x, 1) << z;
+    const double side = 2 * std::sqrt(1 - 0.3 * 0.3);
+    EXPECT_EQ(lines.owner({side - 0.03, 0.3, z}).x, 0) << z;
+    EXPECT_GT(lines.owner({side + 0.03, 0.3, z}).x, 1) << z;
+  }
+}
+
+// A flat neck, and a leg thinner than that: what lies on the far side of the joint is no neck.
+TEST(LimbTubes, OnlyTheThickestGoesOnBeyondItsJoint) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 1);
+  lines.go(joint, {-0.1, 0, 0}, 100, 1);
+  lines.go(joint, {0, 0, 0.1}, 100, 0.75);
+  lines.go(joint, {0.1, 0, 0}, 100, 0.3);
+  lines.wide = [](const Vec3& place) { return Vec3{place.z > 0 ? 2. : 1., 1, 1}; };
+  EXPECT_GT(lines.owner({1.2, 0, 0.28}).z, 0);
+  EXPECT_GT(lines.owner({1.2, 0, -0.2}).x, 1);
+  EXPECT_LE(lines.owner({0.8, 0, -0.2}).x, 0) << "the thickest does";
 }
 
 TEST(LimbTubes, ATrunkEndsInARoundEndWhereItsLimbsBegin) {

@@ -7,38 +7,26 @@
 #include <map>
 #include <vector>
 
+#include "core/curve/drawn_lines.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
 namespace {
 
-// Lines from a place outwards, in steps.
-struct Strands {
-  std::vector<Vec3> places;
-  std::vector<double> ball;
-  std::vector<char> ends;
-  SheetLines lines;
+struct Strands : DrawnLines {
+  std::vector<std::uint32_t> tips = {};
 
-  std::uint32_t add(const Vec3& at, double thick) {
-    places.push_back(at);
-    ball.push_back(thick);
-    ends.push_back(0);
-    lines.vertices.push_back(static_cast<std::uint32_t>(places.size() - 1));
-    return lines.vertices.back();
-  }
-  void join(std::uint32_t a, std::uint32_t b) { lines.segments.push_back({std::min(a, b), std::max(a, b)}); }
-  // @returns the last vertex.
-  std::uint32_t go(std::uint32_t from, const Vec3& step, int steps, double thick) {
-    for (int n = 0; n < steps; ++n) {
-      const std::uint32_t to = add(places[from] + step, thick);
-      join(from, to);
-      from = to;
-    }
-    return from;
+  SheetLines lines() const {
+    SheetLines lines;
+    for (std::uint32_t v = 0; v < places.size(); ++v) lines.vertices.push_back(v);
+    lines.segments = segments;
+    std::sort(lines.segments.begin(), lines.segments.end());
+    return lines;
   }
   SheetLines zipped() {
-    std::sort(lines.segments.begin(), lines.segments.end());
-    return zipped_lines(lines, ends, ball, 0.1, places);
+    std::vector<char> ends(places.size(), 0);
+    for (const std::uint32_t v : tips) ends[v] = 1;
+    return zipped_lines(lines(), ends, ball, 0.1, places);
   }
 };
 
@@ -61,11 +49,11 @@ std::int64_t euler(const SheetLines& lines) {
 Strands body(double apart) {
   Strands body;
   const std::uint32_t joint = body.add({0, 0, 0}, 1);
-  body.ends[body.go(joint, {-0.1, 0, 0}, 60, 1)] = 1;
-  body.ends[body.go(joint, {0.1, 0, 0}, 60, 1)] = 1;
+  body.tips.push_back(body.go(joint, {-0.1, 0, 0}, 60, 1));
+  body.tips.push_back(body.go(joint, {0.1, 0, 0}, 60, 1));
   for (const double side : {-1., 1.}) {
     const std::uint32_t hip = body.go(joint, {0.1, side * apart / 40, 0}, 40, 0.95);
-    body.ends[body.go(hip, {0, side * 0.04, -0.1}, 60, 0.4)] = 1;
+    body.tips.push_back(body.go(hip, {0, side * 0.04, -0.1}, 60, 0.4));
   }
   return body;
 }
@@ -86,8 +74,8 @@ TEST(ZippedLines, LegsLeaveTheSpineWhereTheyPartFromIt) {
 TEST(ZippedLines, WhatPartsWithinTheJointStays) {
   Strands strands = body(8);
   const SheetLines lines = strands.zipped();
-  EXPECT_EQ(lines.segments, strands.lines.segments);
-  EXPECT_EQ(lines.vertices, strands.lines.vertices);
+  EXPECT_EQ(lines.segments, strands.lines().segments);
+  EXPECT_EQ(lines.vertices, strands.lines().vertices);
 }
 
 // A jar's three strands from a place deep in its belly: to the neck, and to both handles, which lead there, too.
@@ -117,8 +105,8 @@ TEST(ZippedLines, ALoopIsNotClosed) {
   const std::uint32_t high = loop.go(low, {0, 0, 0.1}, 40, 1);
   const std::uint32_t beside = loop.go(loop.go(low, {0.2, 0, 0.1}, 1, 0.9), {0, 0, 0.1}, 38, 0.9);
   loop.join(beside, high);
-  loop.ends[loop.go(low, {0, 0, -0.1}, 20, 1)] = 1;
-  loop.ends[loop.go(high, {0, 0, 0.1}, 20, 1)] = 1;
+  loop.tips.push_back(loop.go(low, {0, 0, -0.1}, 20, 1));
+  loop.tips.push_back(loop.go(high, {0, 0, 0.1}, 20, 1));
   const SheetLines lines = loop.zipped();
   EXPECT_EQ(euler(lines), 0);
   EXPECT_EQ(polylines(lines.vertices.size(), lines.segments).size(), 4U);

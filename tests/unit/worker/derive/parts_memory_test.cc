@@ -15,7 +15,7 @@
 namespace affskel::worker {
 namespace {
 
-constexpr std::uint64_t kBytesPerPoint = 175;
+constexpr std::uint64_t kBytesPerPoint = 150;
 
 // 0 when the parts take no more than so much beside mesh, lattice and the field's bytes.
 [[noreturn]] void derive_within_bound() {
