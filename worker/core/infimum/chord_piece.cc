@@ -76,13 +76,18 @@ class PieceFinder::Work {
   // Some loops that pass the vertex bound the piece, others do not.
   Joins joins_at(std::uint32_t vertex) const {
     if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return Joins::unknown;
+    std::uint32_t beside = vertex;  // in the plane, too
     for (const std::uint32_t other : in_.rings[vertex]) {
-      if (std::abs(dot(d_, in_.mesh.points[other] - x_)) <= 4 * kTouchHeight) return Joins::unknown;
+      if (!touches(other)) continue;
+      if (beside != vertex) return Joins::unknown;
+      beside = other;
     }
+    // The plane passes both when it passes the one.
+    if (beside != vertex && !only_touches(beside, vertex)) return Joins::unknown;
     std::array<bool, 2> passes{};
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       bool& passed = passes[joined_[l]];
-      passed = passed || passes_at(loops_[l], vertex);
+      passed = passed || passes_at(loops_[l], vertex) || (beside != vertex && passes_at(loops_[l], beside));
     }
     return passes[0] && passes[1] ? Joins::yes : Joins::no;
   }
@@ -121,6 +126,17 @@ class PieceFinder::Work {
       const std::uint32_t root = in_.shells[s].root;
       if (classes_.find(shell_member(s)) == of_own && section_.below(root)) whole_.push_back(root);
     }
+  }
+
+  bool touches(std::uint32_t vertex) const {
+    return std::abs(dot(d_, in_.mesh.points[vertex] - x_)) <= 4 * kTouchHeight;
+  }
+
+  // Whether of those round a vertex the plane touches this one alone, and passes both when it passes it.
+  bool only_touches(std::uint32_t vertex, std::uint32_t other) const {
+    return (in_.crosses.empty() || in_.crosses[vertex] == 0) &&
+           dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
+           std::ranges::none_of(in_.rings[vertex], [&](std::uint32_t v) { return v != other && touches(v); });
   }
 
   bool passes_at(const Loop& loop, std::uint32_t vertex) const {
