@@ -17,7 +17,7 @@ constexpr std::size_t kNearest = 3;  // saddles nearest to x that are tried
 constexpr std::size_t kMostSaddles = 2 * (NearPlaces::kMost + 1) + kNearest;
 // Sine of the angle between the known plane and those that touch any saddle.  Of so many triangles; with more it is
 // less, as there are more saddles, in proportion, and a piece takes longer, by the root.
-constexpr double kReach = 0.6, kTriangles = 700;
+constexpr double kReach = 0.6, kReachTriangles = 700;
 // What the first piece of a plane may be, in known ones: of pairs, of those that touch any saddle, of near places'.
 constexpr double kPairFirst = 1, kReachFirst = 2, kNearFirst = 3;
 constexpr double kMostPromised = 1.02;  // what a near place's plane may promise, likewise
@@ -25,7 +25,7 @@ constexpr double kLesser = 1e-7;        // by which a piece must be less to take
 constexpr double kPairPromise = 4, kNearPromise = 1;  // DescentBound::promise
 
 double reach(std::size_t triangles) {
-  const double share = kTriangles / std::max(kTriangles, static_cast<double>(triangles));
+  const double share = kReachTriangles / std::max(kReachTriangles, static_cast<double>(triangles));
   return kReach * share * std::sqrt(share);
 }
 
