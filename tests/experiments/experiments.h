@@ -62,6 +62,8 @@ void reach_experiment(const Setting& setting, Report& report);
 void tessellation_experiment(const Setting& setting, Report& report);
 /// Not published: the infimum at single points against an independent search.
 void confirmation_experiment(const Setting& setting, Report& report);
+/// Not published: at how many points the infimum is above the least of very many directions.
+void miss_experiment(const Setting& setting, Report& report);
 /// Not published: the ridge beside medial skeletons, under noise, maps and remeshing.
 void medial_experiment(const Setting& setting, Report& report);
 /// Not published: the curve skeleton beside mean curvature skeletons.

@@ -36,6 +36,7 @@ constexpr Experiment kExperiments[] = {
     {"limbs", limbs_experiment},
     {"tessellations", tessellation_experiment},
     {"confirmations", confirmation_experiment},
+    {"misses", miss_experiment},
     {"medial", medial_experiment},
     {"growth", growth_experiment},
 };

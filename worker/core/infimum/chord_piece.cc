@@ -16,7 +16,9 @@
 #include "core/infimum/chord_piece.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
@@ -64,6 +66,32 @@ class PieceFinder::Work {
     return piece();
   }
 
+  bool holds(std::uint32_t vertex) {
+    if (own_loops_.empty()) return false;
+    if (!by_sides_) return classes_.find(member_of(vertex)) == classes_.find(own_loops_[0]);
+    const std::uint64_t sides = sides_of(vertex);
+    return std::ranges::any_of(own_loops_, [&](std::uint32_t l) { return sides_[l] == sides; });
+  }
+
+  // Some loops that pass the vertex bound the piece, others do not.
+  Joins joins_at(std::uint32_t vertex) const {
+    if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return Joins::unknown;
+    std::uint32_t beside = vertex;  // in the plane, too
+    for (const std::uint32_t other : in_.rings[vertex]) {
+      if (!touches(other)) continue;
+      if (beside != vertex) return Joins::unknown;
+      beside = other;
+    }
+    // The plane passes both when it passes the one.
+    if (beside != vertex && !only_touches(beside, vertex)) return Joins::unknown;
+    std::array<bool, 2> passes{};
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+      bool& passed = passes[joined_[l]];
+      passed = passed || passes_at(loops_[l], vertex) || (beside != vertex && passes_at(loops_[l], beside));
+    }
+    return passes[0] && passes[1] ? Joins::yes : Joins::no;
+  }
+
   Hessian hessian() const {
     Hessian sum{};
     for (const std::uint32_t l : own_loops_) add_bend(loops_[l], sum);
@@ -84,7 +112,8 @@ class PieceFinder::Work {
     solid_ = in_.shells[shell_of(loops_[own])].solid;
     joined_.assign(loops_.size(), 0);
     whole_.clear();
-    if (in_.is_ball && loops_.size() <= kMostSides) return join_by_sides(own);
+    by_sides_ = in_.is_ball && loops_.size() <= kMostSides;
+    if (by_sides_) return join_by_sides(own);
     classes_.reset(loops_.size() + section_.edges().size() + in_.shells.size());
     join_patches();
     join_lids();
@@ -99,17 +128,39 @@ class PieceFinder::Work {
     }
   }
 
+  bool touches(std::uint32_t vertex) const {
+    return std::abs(dot(d_, in_.mesh.points[vertex] - x_)) <= 4 * kTouchHeight;
+  }
+
+  // Whether of those round a vertex the plane touches this one alone, and passes both when it passes it.
+  bool only_touches(std::uint32_t vertex, std::uint32_t other) const {
+    return (in_.crosses.empty() || in_.crosses[vertex] == 0) &&
+           dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
+           std::ranges::none_of(in_.rings[vertex], [&](std::uint32_t v) { return v != other && touches(v); });
+  }
+
+  bool passes_at(const Loop& loop, std::uint32_t vertex) const {
+    const auto cuts = std::span(section_.cuts()).subspan(loop.begin, loop.end - loop.begin);
+    return std::ranges::any_of(cuts, [&](const Cut& cut) {
+      const Triangle& corners = in_.mesh.triangles[cut.triangle()];
+      return corners[0] == vertex || corners[1] == vertex || corners[2] == vertex;
+    });
+  }
+
+  std::uint64_t sides_of(std::uint32_t vertex) const {
+    std::uint64_t sides = 0;
+    for (const SectionLoops::Edge& edge : section_.edges()) {
+      const bool passed = in_.branches[edge.number].holds(in_.branches[vertex]);
+      sides ^= passed ? std::uint64_t{1} << edge.loop : 0;
+    }
+    return sides;
+  }
+
   // A vertex lies on the root's side of a loop where the way to the root in the tree passes it an even number of
   // times.
   void join_by_sides(std::uint32_t own) {
-    sides_.assign(loops_.size(), 0);
-    for (const SectionLoops::Edge& edge : section_.edges()) {
-      const PieceInput::Branch& branch = in_.branches[edge.number];
-      const std::uint64_t bit = std::uint64_t{1} << edge.loop;
-      for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-        sides_[l] ^= branch.holds(in_.branches[loops_[l].low]) ? bit : 0;
-      }
-    }
+    sides_.clear();
+    for (const Loop& loop : loops_) sides_.push_back(sides_of(loop.low));
     classes_.reset(loops_.size());
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       for (std::uint32_t other = 0; other < l; ++other) {
@@ -298,6 +349,7 @@ class PieceFinder::Work {
   std::uint32_t solid_ = 0;
   std::vector<CutEdge> cuts_;
   DisjointSets classes_;
+  bool by_sides_ = false;                 // how the loops were joined
   std::vector<std::uint64_t> sides_;      // per loop: bits of the loops with the root on their other side
   std::vector<std::uint8_t> joined_;      // per loop: whether it bounds the piece
   std::vector<std::uint32_t> whole_;      // roots that lie in it
@@ -314,6 +366,14 @@ ChordPiece PieceFinder::find(const Vec3& x, const Vec3& d) {
 
 Hessian PieceFinder::hessian() const {
   return work_->hessian();
+}
+
+bool PieceFinder::holds(std::uint32_t vertex) {
+  return work_->holds(vertex);
+}
+
+PieceFinder::Joins PieceFinder::joins_at(std::uint32_t vertex) const {
+  return work_->joins_at(vertex);
 }
 
 }  // namespace affskel::core

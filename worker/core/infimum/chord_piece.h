@@ -44,6 +44,15 @@ class PieceFinder {
   /// Of the piece found last.
   Hessian hessian() const;
 
+  /// Whether the piece found last holds a vertex that lies below its plane.
+  bool holds(std::uint32_t vertex);
+
+  enum class Joins { no, yes, unknown };
+  /// Whether another part joins the piece found last at a vertex that its plane touches, as soon as it passes it.
+  /// Unknown where parts may meet elsewhere, too: at a neighbour in the plane, or where triangles pass through
+  /// each other.
+  Joins joins_at(std::uint32_t vertex) const;
+
  private:
   class Work;
   std::unique_ptr<Work> work_;

@@ -50,6 +50,17 @@ class PlaneHeights {
     return sum;
   }
 
+  /// No less than the square of the distance of any point of a box from x, for all boxes; of none 0.
+  static Four distance_squared(const FourBoxes& boxes, const Vec3& x) {
+    Four sum = {0, 0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four most = (away < 0 ? -away : away) + boxes.half[k] + kSlack;
+      sum += most > 0 ? most * most : Four{};
+    }
+    return sum;
+  }
+
   /// No more than the distance of any point of a box from x.
   static Four gap(const FourBoxes& boxes, const Vec3& x) {
     Four most = {0, 0, 0, 0};

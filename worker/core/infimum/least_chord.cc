@@ -22,7 +22,7 @@ constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
 constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
 constexpr int kMaxShorter = 6;          // of a step
-constexpr double kLeastGain = 1e-9;     // of the volume: a step that promises less is not made
+constexpr double kLeastGain = 1e-8;     // of the volume: a step that promises less is not made
 constexpr double kMinGain = 1e-12;      // of the volume: a lesser decrease is none
 constexpr double kLastGain = 1e-8;      // of the volume: after it, the next would be below rounding
 constexpr double kBeyond = 1e-9;        // how far below a saddle it is tried whether a part joins there
@@ -63,6 +63,12 @@ class ChordDescent::Work {
     }
   }
 
+  bool holds(const Vec3& x, const LeastChord& least, std::uint32_t vertex) {
+    x_ = x;
+    find_again(least.normal);
+    return finder_.holds(vertex);
+  }
+
   std::uint64_t evaluations() const { return evaluations_; }
   SaddleSearch& saddles() { return saddles_; }
 
@@ -71,7 +77,14 @@ class ChordDescent::Work {
 
   ChordPiece find(const Vec3& d) {
     ++evaluations_;
+    found_x_ = x_;
+    found_d_ = d;
     return finder_.find(x_, d);
+  }
+
+  // Finds the piece of d again, unless it is the one found last.
+  void find_again(const Vec3& d) {
+    if (!(found_x_ == x_ && found_d_ == d)) find(d);
   }
 
   // From the plane nearest to start's that touches its saddles.
@@ -99,6 +112,7 @@ class ChordDescent::Work {
   // The lesser piece, if there is one, on the other side of a saddle near a least one: of those that the plane
   // touches, which a part joins there, or of those just below it, where a part is left out.
   LeastChord across(const LeastChord& least) {
+    const std::vector<std::uint32_t> others = held_below(least);
     LeastChord best = least;
     const auto keep = [&](const LeastChord& other) {
       if (other.erosion < best.erosion) best = other;
@@ -113,12 +127,21 @@ class ChordDescent::Work {
       if (core::dot(d, y) < -kTouchHeight)
         keep(go_down(d, {none, best.erosion * (1 - kWorth), kAcrossPromise}));
     }
-    const std::vector<SaddleSearch::Saddle> others = saddles_.just_below(x_, least.normal);
-    for (const SaddleSearch::Saddle& saddle : others) {
-      const Vec3 d = touch_beside(saddle.vertex, least);
+    for (const std::uint32_t saddle : others) {
+      const Vec3 d = touch_beside(saddle, least);
       keep(go_down(d, {kWorthwhile * best.erosion, best.erosion * (1 - kWorth), kAcrossPromise}));
     }
     return best;
+  }
+
+  // The saddles just below a least plane that its piece holds: at others nothing is left out.
+  std::vector<std::uint32_t> held_below(const LeastChord& least) {
+    std::vector<std::uint32_t> held;
+    for (const SaddleSearch::Saddle& saddle : saddles_.just_below(x_, least.normal)) {
+      find_again(least.normal);
+      if (finder_.holds(saddle.vertex)) held.push_back(saddle.vertex);
+    }
+    return held;
   }
 
   // The plane nearest to a least one that touches a saddle and lies above none of those that are held there: it
@@ -317,6 +340,9 @@ class ChordDescent::Work {
 
   // Whether a part joins the piece as soon as the plane passes the vertex, which it touches.
   bool joins_at(std::uint32_t vertex) {
+    find_again(d_);
+    const PieceFinder::Joins joins = finder_.joins_at(vertex);
+    if (joins != PieceFinder::Joins::unknown) return joins == PieceFinder::Joins::yes;
     const Vec3 s = from_x(vertex);
     const Vec3 d = d_ - (kBeyond / core::dot(s, s)) * s;
     const ChordPiece beyond = find((1 / core::norm(d)) * d);
@@ -341,6 +367,7 @@ class ChordDescent::Work {
   PieceFinder finder_;
   SaddleSearch saddles_;
   Vec3 x_, d_;
+  Vec3 found_x_, found_d_;                          // the piece found last
   std::vector<std::uint32_t> active_;               // saddles, at most two
   Stand piece_;                                     // of d_
   std::span<const SaddleSearch::Saddle> meetings_;  // of the step in hand
@@ -356,6 +383,10 @@ LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start, const D
 
 LeastChord ChordDescent::look_across(const Vec3& x, LeastChord least) {
   return work_->look_across(x, least);
+}
+
+bool ChordDescent::holds(const Vec3& x, const LeastChord& least, std::uint32_t vertex) {
+  return work_->holds(x, least, vertex);
 }
 
 SaddleSearch& ChordDescent::saddles() {

@@ -271,6 +271,7 @@ PieceInput::Saddle PieceInput::saddle_at(std::uint32_t vertex) const {
   const double tangent_squared =
       kSlack * steepest * steepest / (0.5 * least_gap) + (kSlack - 1) * (kSlack - 1);
   saddle.cosine = 1 / std::sqrt(1 + tangent_squared);
+  saddle.sine = std::sqrt(tangent_squared) * saddle.cosine;
   return saddle;
 }
 

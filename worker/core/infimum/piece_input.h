@@ -102,8 +102,9 @@ struct PieceInput {
   struct Saddle {
     std::uint32_t vertex = 0;
     Vec3 normal;  ///< of the surface there, unit
-    double cosine =
-        0;  ///< the normals of all planes at which parts meet make no less with it, or its opposite
+    /// The normals of all planes at which parts meet make no less with it, or its opposite.
+    double cosine = 0;
+    double sine = 1;  ///< of the same angle
   };
   std::vector<Saddle> saddles;  ///< by vertex
   FourTree saddle_tree;         ///< over `saddles`

@@ -200,7 +200,7 @@ LeastChord Refinement::follow(int round, std::uint32_t p, ChordDescent& descent)
 LeastChord Refinement::look(int round, std::uint32_t p, ChordDescent& descent) const {
   const NearPlaces near(grid_, around_, least_, p);
   return look_wider(
-      input_, at(p), least_[p], near, least_, [&](std::uint32_t q) { return is_news(q, round); }, descent);
+      input_, at(p), p, near, least_, [&](std::uint32_t q) { return is_news(q, round); }, descent);
 }
 
 std::unique_ptr<ChordDescent> Refinement::borrow() {

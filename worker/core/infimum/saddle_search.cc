@@ -87,10 +87,30 @@ const std::vector<SaddleSearch::Saddle>& SaddleSearch::nearest(const Vec3& x, st
   return found_;
 }
 
-bool SaddleSearch::may_join(const Vec3& x, std::uint32_t vertex, const Vec3& d) {
+std::span<const PieceInput::Saddle* const> SaddleSearch::in_reach(const Vec3& x, const Vec3& d, double sine) {
   x_ = x;
-  const auto saddle = std::ranges::lower_bound(in_.saddles, vertex, {}, &PieceInput::Saddle::vertex);
-  return saddle != in_.saddles.end() && saddle->vertex == vertex && may_join(*saddle, d);
+  reached_.clear();
+  const PlaneHeights plane(x, d);
+  const auto sine_squared = static_cast<float>(sine * sine);
+  const double cosine = std::sqrt(1 - sine * sine);
+  const auto meets = [&](const FourBoxes& boxes) {
+    const Four middle = plane.middle(boxes);
+    const Four away = (middle < 0 ? -middle : middle) - plane.reach(boxes);
+    return (away <= 0) | (away * away <= sine_squared * PlaneHeights::distance_squared(boxes, x));
+  };
+  visit_vertices(meets, [&](const PieceInput::Saddle& saddle) {
+    const Vec3 y = from_x(saddle.vertex);
+    const double height = dot(d, y), along = dot(d, saddle.normal);
+    if (height * height > sine * sine * dot(y, y)) return;
+    const double least = saddle.cosine * cosine - saddle.sine * sine;  // of the sum of both angles
+    if (least <= 0 || along * along >= least * least) reached_.push_back(&saddle);
+  });
+  return reached_;
+}
+
+bool SaddleSearch::may_join(const Vec3& x, const PieceInput::Saddle& saddle, const Vec3& d) {
+  x_ = x;
+  return may_join(saddle, d);
 }
 
 bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) const {

@@ -37,9 +37,12 @@ class SaddleSearch {
   /// The `count` vertices nearest to x at which parts may meet, or all; by the square of their distance.
   const std::vector<Saddle>& nearest(const Vec3& x, std::size_t count);
 
-  /// Whether parts of the solid may meet at the vertex when the plane through x of normal d, which touches it,
+  /// Those that a plane of a normal at most asin(sine) from d touches, where parts may meet at such a plane.
+  std::span<const PieceInput::Saddle* const> in_reach(const Vec3& x, const Vec3& d, double sine);
+
+  /// Whether parts of the solid may meet at the saddle when the plane through x of normal d, which touches it,
   /// tilts.
-  bool may_join(const Vec3& x, std::uint32_t vertex, const Vec3& d);
+  bool may_join(const Vec3& x, const PieceInput::Saddle& saddle, const Vec3& d);
 
  private:
   Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
@@ -53,6 +56,7 @@ class SaddleSearch {
   Vec3 x_;
   FourTree::Lists lists_;
   std::vector<Saddle> found_;
+  std::vector<const PieceInput::Saddle*> reached_;
 };
 
 }  // namespace affskel::core

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <utility>
+#include <span>
+#include <vector>
 
 #include "core/infimum/saddle_search.h"
 #include "core/infimum/section_loops.h"
@@ -11,74 +13,133 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::size_t kNearest = 6;  // saddles nearest to x that are tried
+constexpr std::size_t kNearest = 3;  // saddles nearest to x that are tried
 constexpr std::size_t kMostSaddles = 2 * (NearPlaces::kMost + 1) + kNearest;
-constexpr double kNearFirst = 3;        // what the first piece of a near place's plane may be, in known ones
-constexpr double kMostPromised = 1.02;  // what it may promise, likewise
+// Sine of the angle between the known plane and those that touch any saddle.  Of so many triangles; with more it is
+// less, as there are more saddles, in proportion, and a piece takes longer, by the root.
+constexpr double kReach = 0.6, kReachTriangles = 700;
+// What the first piece of a plane may be, in known ones: of pairs, of those that touch any saddle, of near places'.
+constexpr double kPairFirst = 1, kReachFirst = 2, kNearFirst = 3;
+constexpr double kMostPromised = 1.01;  // what a near place's plane may promise, likewise
 constexpr double kLesser = 1e-7;        // by which a piece must be less to take the place of another
-constexpr double kPairPromise = 4, kNearPromise = 1;  // DescentBound::promise
+constexpr double kPairPromise = 2, kNearPromise = 1;  // DescentBound::promise
+
+double reach(std::size_t triangles) {
+  const double share = kReachTriangles / std::max(kReachTriangles, static_cast<double>(triangles));
+  return kReach * share * std::sqrt(share);
+}
 
 class Look {
  public:
-  Look(const PieceInput& input, const Vec3& x, const LeastChord& known, const NearPlaces& near,
-       const std::vector<LeastChord>& least, ChordDescent& descent)
-      : in_(input), x_(x), known_(known), best_(known), near_(near), least_(least), descent_(descent) {}
+  Look(const PieceInput& input, const Vec3& x, std::uint32_t point, const NearPlaces& near,
+       const std::vector<LeastChord>& least, const std::function<bool(std::uint32_t)>& is_news,
+       ChordDescent& descent)
+      : in_(input),
+        x_(x),
+        known_(least[point]),
+        best_(known_),
+        near_(near),
+        least_(least),
+        is_news_(is_news),
+        descent_(descent) {
+    list_saddles(is_news(point));
+  }
 
-  LeastChord run(const std::function<bool(std::uint32_t)>& heard) {
-    list_saddles();
-    for (std::size_t m = 0; m < count_; ++m) {
-      for (std::size_t n = 0; n < m; ++n) {
-        // A lesser piece leaves out a part that the known one has.
-        if (saddles_[m].below || saddles_[n].below) try_pair(saddles_[m], saddles_[n]);
-      }
-    }
-    near_.for_each([&](std::uint32_t q, const Vec3& way) {
-      if (heard(q)) try_plane_of(least_[q], way);
-    });
+  LeastChord run() {
+    try_pairs();
+    try_reach();
+    try_planes();
     return best_.erosion < known_.erosion ? descent_.look_across(x_, best_) : known_;
   }
 
  private:
   struct Saddle {
-    std::uint32_t vertex;
-    Vec3 from_x;
-    bool below;  // the known plane
+    const PieceInput::Saddle* of = nullptr;
+    Vec3 way;            // to it from x, of unit length
+    bool below = false;  // the known plane
+    bool anew = false;   // not tried yet
   };
 
-  void add(std::uint32_t vertex) {
+  Saddle saddle(const PieceInput::Saddle& of, bool anew) const {
+    const Vec3 from_x = in_.mesh.points[of.vertex] - x_;
+    return {&of, (1 / norm(from_x)) * from_x, dot(known_.normal, from_x) < -kTouchHeight, anew};
+  }
+
+  std::span<Saddle> known_saddles() { return std::span(saddles_).first(count_); }
+
+  void add(std::uint32_t vertex, bool anew) {
     if (vertex == LeastChord::kNone) return;
-    const auto end = saddles_.begin() + static_cast<std::ptrdiff_t>(count_);
-    if (std::any_of(saddles_.begin(), end, [&](const Saddle& s) { return s.vertex == vertex; })) return;
-    const Vec3 from_x = in_.mesh.points[vertex] - x_;
-    saddles_[count_++] = {vertex, from_x, dot(known_.normal, from_x) < -kTouchHeight};
-  }
-
-  void list_saddles() {
-    for (const std::uint32_t s : known_.saddles) add(s);
-    near_.for_each([&](std::uint32_t q, const Vec3&) {
-      for (const std::uint32_t s : least_[q].saddles) add(s);
-    });
-    for (const SaddleSearch::Saddle& s : descent_.saddles().nearest(x_, kNearest)) add(s.vertex);
-  }
-
-  void try_pair(const Saddle& a, const Saddle& b) {
-    const Vec3 across = cross(a.from_x, b.from_x);
-    for (const double sign : {1.0, -1.0}) {
-      LeastChord start;
-      start.normal = sign * across;
-      if (near_.holds_more(start.normal, best_.erosion)) continue;
-      const double size = norm(across);
-      if (!(size > 0)) return;
-      start.normal = (1 / size) * start.normal;
-      start.saddles = {std::min(a.vertex, b.vertex), std::max(a.vertex, b.vertex)};
-      if (alike(start, best_) && start.saddles == best_.saddles) continue;
-      if (!joins(a, start.normal) || !joins(b, start.normal)) continue;
-      go_down(start, 1, kPairPromise);
+    const auto known = known_saddles();
+    const auto there = std::ranges::find_if(known, [&](const Saddle& s) { return s.of->vertex == vertex; });
+    if (there != known.end()) {
+      there->anew = there->anew || anew;
+    } else {
+      const auto of = std::ranges::lower_bound(in_.saddles, vertex, {}, &PieceInput::Saddle::vertex);
+      saddles_[count_++] = saddle(*of, anew);
     }
   }
 
-  bool joins(const Saddle& saddle, const Vec3& d) {
-    return descent_.saddles().may_join(x_, saddle.vertex, d);
+  // Of the known plane and of near places' planes, and the nearest ones.
+  void list_saddles(bool anew) {
+    for (const std::uint32_t s : known_.saddles) add(s, anew);
+    near_.for_each([&](std::uint32_t q, const Vec3&) {
+      for (const std::uint32_t s : least_[q].saddles) add(s, anew || is_news_(q));
+    });
+    for (const SaddleSearch::Saddle& s : descent_.saddles().nearest(x_, kNearest)) add(s.vertex, anew);
+  }
+
+  void try_pairs() {
+    for (std::size_t m = 0; m < count_; ++m) {
+      for (std::size_t n = 0; n < m; ++n) {
+        const Saddle &a = saddles_[m], &b = saddles_[n];
+        if (!(a.anew || b.anew) || !leaves_out(a, b)) continue;
+        const Vec3 across = cross(a.way, b.way);
+        try_pair(a, b, across, kPairFirst);
+        try_pair(a, b, -1 * across, kPairFirst);
+      }
+    }
+  }
+
+  // Planes that touch one of the saddles and any other, not far from the known plane.
+  void try_reach() {
+    if (std::ranges::none_of(known_saddles(), &Saddle::anew)) return;
+    const double sine = reach(in_.mesh.triangles.size());
+    const double cosine_squared = 1 - sine * sine;
+    for (const PieceInput::Saddle* other : descent_.saddles().in_reach(x_, known_.normal, sine)) {
+      const Saddle b = saddle(*other, false);
+      const Vec3 turned = cross(b.way, known_.normal);
+      for (std::size_t m = 0; m < count_; ++m) {
+        const Saddle& a = saddles_[m];
+        if (a.of == other) break;  // a pair that is tried
+        if (!a.anew || !leaves_out(a, b)) continue;
+        const double along = dot(a.way, turned), shared = dot(a.way, b.way);
+        if (along * along < cosine_squared * (1 - shared * shared)) continue;
+        const Vec3 across = cross(a.way, b.way);
+        try_pair(a, b, along < 0 ? -1 * across : across, kReachFirst);
+      }
+    }
+  }
+
+  // A lesser piece leaves out a part that the known one has.
+  static bool leaves_out(const Saddle& a, const Saddle& b) { return a.below || b.below; }
+
+  void try_pair(const Saddle& a, const Saddle& b, const Vec3& across, double first) {
+    if (near_.holds_more(across, best_.erosion)) return;
+    const double size = norm(across);
+    if (!(size > 0)) return;
+    LeastChord start;
+    start.normal = (1 / size) * across;
+    start.saddles = {std::min(a.of->vertex, b.of->vertex), std::max(a.of->vertex, b.of->vertex)};
+    if (start.saddles == best_.saddles && alike(start, best_)) return;
+    if (joins(a, start.normal) && joins(b, start.normal)) go_down(start, first, kPairPromise);
+  }
+
+  bool joins(const Saddle& saddle, const Vec3& d) { return descent_.saddles().may_join(x_, *saddle.of, d); }
+
+  void try_planes() {
+    near_.for_each([&](std::uint32_t q, const Vec3& way) {
+      if (is_news_(q)) try_plane_of(least_[q], way);
+    });
   }
 
   void try_plane_of(const LeastChord& offer, const Vec3& way) {
@@ -109,6 +170,7 @@ class Look {
   LeastChord best_;
   const NearPlaces& near_;
   const std::vector<LeastChord>& least_;
+  const std::function<bool(std::uint32_t)>& is_news_;
   ChordDescent& descent_;
   std::array<Saddle, kMostSaddles> saddles_;
   std::size_t count_ = 0;
@@ -118,10 +180,10 @@ class Look {
 
 }  // namespace
 
-LeastChord look_wider(const PieceInput& input, const Vec3& x, const LeastChord& known, const NearPlaces& near,
-                      const std::vector<LeastChord>& least, const std::function<bool(std::uint32_t)>& heard,
+LeastChord look_wider(const PieceInput& input, const Vec3& x, std::uint32_t point, const NearPlaces& near,
+                      const std::vector<LeastChord>& least, const std::function<bool(std::uint32_t)>& is_news,
                       ChordDescent& descent) {
-  return Look(input, x, known, near, least, descent).run(heard);
+  return Look(input, x, point, near, least, is_news, descent).run();
 }
 
 }  // namespace affskel::core

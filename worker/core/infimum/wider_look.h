@@ -10,18 +10,20 @@
 
 namespace affskel::core {
 
-/// Looks for a lesser piece of x than the one that is known, in basins that a descent does not come to: those between
-/// two saddles, which are narrow.  It goes down
+/// Looks for a lesser piece of a sample point x than the one that is known, in basins that a descent does not come to:
+/// those between two saddles, which are narrow.  It goes down
 ///   - from the planes that touch two of the saddles known near: those of near places' planes and the nearest ones;
+///   - from those that touch one of these and any other, as far as they are near the known plane;
 ///   - from the planes of near places, where these promise less.
 /// Planes whose piece holds a near place of greater E are left out (NearPlaces), and so are those that may meet no
 /// parts at a saddle.
 ///
+/// @param point x's number, of `least`: what is known.
+/// @param is_news tells of a point whether the last round changed it: only what that makes new is tried.
 /// @param descent with what it holds for x's solid.
-/// @param heard tells of near places whose planes x has not tried yet.
-/// @return the least piece found; `known` itself where there is no lesser one.
-LeastChord look_wider(const PieceInput& input, const Vec3& x, const LeastChord& known, const NearPlaces& near,
-                      const std::vector<LeastChord>& least, const std::function<bool(std::uint32_t)>& heard,
+/// @return the least piece found; the known one itself where there is no lesser one.
+LeastChord look_wider(const PieceInput& input, const Vec3& x, std::uint32_t point, const NearPlaces& near,
+                      const std::vector<LeastChord>& least, const std::function<bool(std::uint32_t)>& is_news,
                       ChordDescent& descent);
 
 }  // namespace affskel::core

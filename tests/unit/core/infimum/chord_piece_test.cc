@@ -4,15 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/split_mix64.h"
 #include "core/base/unit.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
+#include "core/erosion/join_tree.h"
+#include "core/erosion/tree_input.h"
 #include "core/infimum/piece_input.h"
 #include "core/infimum/samples.h"
 #include "core/shapes/body.h"
@@ -92,6 +97,72 @@ TEST(ChordPieceTest, DerivativesAreThoseOfTheVolume) {
     }
   }
   EXPECT_GT(compared, 100);
+}
+
+// The volume of the component that holds a triangle's lowest vertex, below h.
+double volume_with(const JoinTree& tree, std::uint32_t triangle, double h) {
+  const Arc& arc = tree.arcs[tree.climb(triangle, h)];
+  return tree.locate(arc, h).volume_at(h);
+}
+
+void expect_what_trees_hold(const Case& c, std::array<std::size_t, 2>& count) {
+  SCOPED_TRACE(c.name);
+  const Solid solid = make_solid(c.mesh);
+  const PieceInput input(solid);
+  PieceFinder finder(input);
+  const TreeInput trees(solid);
+  JoinTreeBuilder builder(trees, {.crosses_itself = !solid.crossings.empty()});
+  std::map<std::array<double, 3>, std::uint32_t> number;
+  for (std::uint32_t v = 0; v < input.mesh.points.size(); ++v) {
+    const Vec3& p = input.mesh.points[v];
+    number[{p.x, p.y, p.z}] = v;
+  }
+  for (const Vec3& d : make_directions(solid, "random:12:5")) {
+    const JoinTree& tree = builder.build(d);
+    for (const Vec3& x : places_of(lattice_of_points(solid, 40))) {
+      const double h = dot(d, x), volume = finder.find(x, d).volume;
+      for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
+        Vec3 lowest = solid.mesh.points[solid.mesh.triangles[t][0]];
+        for (const std::uint32_t v : solid.mesh.triangles[t]) {
+          if (dot(d, solid.mesh.points[v]) < dot(d, lowest)) lowest = solid.mesh.points[v];
+        }
+        if (dot(d, lowest) >= h - 1e-9) continue;
+        const bool expected = std::abs(volume_with(tree, t, h) - volume) <= 1e-9 * input.volume;
+        ASSERT_EQ(finder.holds(number.at({lowest.x, lowest.y, lowest.z})), expected);
+        ++count[expected ? 1 : 0];
+      }
+    }
+  }
+}
+
+TEST(ChordPieceTest, HoldsWhatTheTreeHas) {
+  std::array<std::size_t, 2> count{};  // of vertices below that are not of the piece, and of those that are
+  for (const Case& c : cases()) expect_what_trees_hold(c, count);
+  EXPECT_GT(count[0], 1000U);
+  EXPECT_GT(count[1], 1000U);
+}
+
+TEST(ChordPieceTest, PartsJoinWhereTheVolumeJumps) {
+  const Solid solid = make_solid(make_body({.triangles = 500}));
+  const PieceInput input(solid);
+  PieceFinder finder(input);
+  SplitMix64 random(7);
+  std::size_t joins = 0, known = 0;
+  for (const Vec3& x : places_of(lattice_of_points(solid, 40))) {
+    for (const PieceInput::Saddle& saddle : input.saddles) {
+      const Vec3 s = input.mesh.points[saddle.vertex] - x, d = draw_direction(random);
+      const Vec3 touching = unit(d - (dot(d, s) / dot(s, s)) * s);
+      const double volume = finder.find(x, touching).volume;
+      const PieceFinder::Joins at = finder.joins_at(saddle.vertex);
+      if (at == PieceFinder::Joins::unknown) continue;
+      const double beyond = finder.find(x, unit(touching - (1e-9 / dot(s, s)) * s)).volume;
+      EXPECT_EQ(at == PieceFinder::Joins::yes, beyond > volume * (1 + 1e-6));
+      joins += at == PieceFinder::Joins::yes;
+      ++known;
+    }
+  }
+  EXPECT_GT(joins, 50U);
+  EXPECT_GT(known, 5000U);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/split_mix64.h"
+#include "core/base/unit.h"
 #include "core/infimum/piece_input.h"
 #include "core/infimum/samples.h"
 #include "core/shapes/body.h"
@@ -114,6 +115,31 @@ TEST_F(SaddleSearchTest, NearestOnes) {
   }
 }
 
+TEST_F(SaddleSearchTest, OnesThatPlanesNearOneTouch) {
+  std::size_t meet = 0;
+  for (int n = 0; n < 40; ++n) {
+    const Vec3 x = 0.2 * draw_vector(random_), d = draw_direction(random_);
+    const double sine = 0.1 + 0.015 * n;
+    std::set<std::uint32_t> found;
+    for (const PieceInput::Saddle* saddle : search_.in_reach(x, d, sine)) {
+      EXPECT_TRUE(found.insert(saddle->vertex).second);
+      const Vec3 y = input_.mesh.points[saddle->vertex] - x;
+      EXPECT_LE(std::abs(dot(d, y)), (sine + 1e-12) * norm(y));
+    }
+    EXPECT_LT(found.size(), input_.saddles.size());
+    for (int k = 0; k < 2000; ++k) {
+      const auto vertex = static_cast<std::uint32_t>(static_cast<std::size_t>(k) % input_.mesh.points.size());
+      const Vec3 y = unit(input_.mesh.points[vertex] - x), near = d + sine * draw_vector(random_);
+      const Vec3 touching = unit(near - dot(near, y) * y);
+      if (norm(cross(d, touching)) > sine || dot(d, touching) < 0) continue;
+      if (parts_below(input_.mesh, vertex, input_.mesh.points[vertex], touching) < 2) continue;
+      EXPECT_EQ(found.count(vertex), 1U);
+      ++meet;
+    }
+  }
+  EXPECT_GT(meet, 100U);
+}
+
 TEST_F(SaddleSearchTest, PartsMayMeetWhereTheyDo) {
   std::size_t meet = 0;
   for (int n = 0; n < 3000; ++n) {
@@ -122,7 +148,9 @@ TEST_F(SaddleSearchTest, PartsMayMeetWhereTheyDo) {
     const Vec3 d = draw_direction(random_), y = draw_vector(random_);
     const Vec3 x = s + 0.3 * (y - dot(d, y) * d);  // of a plane that touches the vertex
     if (parts_below(input_.mesh, vertex, s, d) < 2) continue;
-    EXPECT_TRUE(search_.may_join(x, vertex, d));
+    const auto saddle = std::ranges::find(input_.saddles, vertex, &PieceInput::Saddle::vertex);
+    ASSERT_NE(saddle, input_.saddles.end());
+    EXPECT_TRUE(search_.may_join(x, *saddle, d));
     ++meet;
   }
   EXPECT_GT(meet, 50U);
