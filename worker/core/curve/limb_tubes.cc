@@ -17,10 +17,11 @@ constexpr double kClearly = 1.1;
 
 constexpr std::size_t kRings = 4;  // vertices on either side whose outlines tell that of a joint
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// What one in so many is less than.
+double quantile(std::vector<double> values, std::size_t one_in) {
+  const auto found = values.begin() + static_cast<std::ptrdiff_t>(values.size() / one_in);
+  std::nth_element(values.begin(), found, values.end());
+  return *found;
 }
 
 double distance_to(const Box& box, const Vec3& at) {
@@ -60,7 +61,7 @@ LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segm
   }
   for (Limb& limb : limbs_)
     for (std::size_t end = 0; end < 2; ++end) compare(limb, end);
-  for (Limb& limb : limbs_) find_within(limb);
+  find_hidden();
   for (const Limb& limb : limbs_)
     for (const auto& thicker : limb.thicker)
       for (const std::uint32_t other : thicker)
@@ -118,7 +119,7 @@ LimbTubes::Free LimbTubes::free_part(const Limb& limb) const {
   std::vector<double> radii;
   for (std::size_t n = free.from[0]; n + free.from[1] <= last; ++n)
     radii.push_back(limb.rings[n].ellipse.radius());
-  const double open = kClearly * median(std::move(radii));
+  const double open = kClearly * quantile(std::move(radii), 2);
   for (std::size_t end = 0; end < 2; ++end)
     while (free.from[end] > 0 && free.from[0] + free.from[1] < last &&
            limb.rings[limb.index(end, free.from[end])].ellipse.radius() > open)
@@ -171,7 +172,7 @@ void LimbTubes::go_on_into_joints(Limb& limb) {
     limb.box.include(places_[limb.vertices[n]] - Vec3{most, most, most});
     limb.box.include(places_[limb.vertices[n]] + Vec3{most, most, most});
   }
-  limb.size = median(std::move(thickness));
+  limb.size = quantile(std::move(thickness), 4);
 }
 
 void LimbTubes::compare(Limb& limb, std::size_t end) const {
@@ -188,22 +189,30 @@ void LimbTubes::compare(Limb& limb, std::size_t end) const {
     limb.rings[limb.index(end, 0)].thickness = 0.5 * norm(places_[limb.at(end, 1)] - places_[limb.end(end)]);
 }
 
-// Whether a link is a part of a longer limb, of several of the thickest.
-void LimbTubes::find_within(Limb& limb) const {
-  if (!is_joint(limb.end(0)) || !is_joint(limb.end(1))) return;
-  double thickest = 0;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (const std::uint32_t other : at_joint_[limb.end(end)]) {
-      const Limb& longer = limbs_[other];
-      if (longer.vertices.size() <= limb.vertices.size() || longer.within != kNone || longer.size <= thickest)
-        continue;
-      if (!std::all_of(limb.vertices.begin(), limb.vertices.end(),
-                       [&](std::uint32_t v) { return holds(longer, places_[v]); }))
-        continue;
-      limb.within = other;
-      thickest = longer.size;
-    }
+// Links and loops whose lines lie in the tubes of those that they meet, shorter ones first.
+void LimbTubes::find_hidden() {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t n = 0; n < limbs_.size(); ++n)
+    if (is_joint(limbs_[n].end(0)) && is_joint(limbs_[n].end(1))) order.push_back(n);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return limbs_[a].vertices.size() < limbs_[b].vertices.size();
+  });
+  for (const std::uint32_t n : order) {
+    Limb& limb = limbs_[n];
+    limb.is_hidden = std::all_of(limb.vertices.begin(), limb.vertices.end(), [&](std::uint32_t v) {
+      return any_beside(limb, [&](const Limb& other) { return holds(other, places_[v]); });
+    });
   }
+}
+
+// Whether a limb, not hidden, that meets one fulfils something; thicker ones are asked first.
+template <class Fulfils>
+bool LimbTubes::any_beside(const Limb& limb, const Fulfils& fulfils) const {
+  for (const auto* rounds : {&limb.thicker, &limb.others})
+    for (const auto& round : *rounds)
+      for (const std::uint32_t other : round)
+        if (!limbs_[other].is_hidden && fulfils(limbs_[other])) return true;
+  return false;
 }
 
 // How far a place is outside the tube at one of its vertices, along the way from there; within it less than 0.
@@ -261,27 +270,28 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
   if (is_joint(nearest)) nearest = off_joint(nearest, at);
   if (limb_of_[nearest] == kNone) return nearest;
   const Limb& limb = limbs_[limb_of_[nearest]];
-  const auto vertex_in = [&](const Limb& other) { return own_vertex(other, nearest_in(other, at)); };
-  if (limb.within != kNone) return vertex_in(limbs_[limb.within]);
-  for (const auto& thicker : limb.thicker)
-    for (const std::uint32_t other : thicker)
-      if (has_vertex(limbs_[other]) && holds(limbs_[other], at)) return vertex_in(limbs_[other]);
-  if (!is_shared_[nearest]) return nearest;
-  double least = depth_below(limb, rank_[nearest], at);
-  std::uint32_t owner = nearest;
-  for (const auto* rounds : {&limb.thicker, &limb.others}) {
-    for (const auto& round : *rounds) {
-      for (const std::uint32_t number : round) {
+  if (!limb.is_hidden) {
+    for (const auto& thicker : limb.thicker)
+      for (const std::uint32_t number : thicker) {
         const Limb& other = limbs_[number];
-        if (other.within != kNone || !has_vertex(other) || distance_to(other.box, at) >= least) continue;
-        const std::size_t n = nearest_in(other, at);
-        const double depth = depth_below(other, n, at);
-        if (depth >= least) continue;
-        least = depth;
-        owner = own_vertex(other, n);
+        if (!other.is_hidden && holds(other, at)) return own_vertex(other, nearest_in(other, at));
       }
-    }
+    if (!is_shared_[nearest]) return nearest;
   }
+  double least =
+      limb.is_hidden ? std::numeric_limits<double>::infinity() : depth_below(limb, rank_[nearest], at);
+  if (least < 0) return nearest;
+  std::uint32_t owner = nearest;
+  any_beside(limb, [&](const Limb& other) {
+    if (distance_to(other.box, at) >= least) return false;
+    const std::size_t n = nearest_in(other, at);
+    const double depth = depth_below(other, n, at);
+    if (depth < least) {
+      least = depth;
+      owner = own_vertex(other, n);
+    }
+    return false;
+  });
   return owner;
 }
 

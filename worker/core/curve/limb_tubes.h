@@ -17,10 +17,10 @@ namespace affskel::core {
 /// Parts a solid where its limbs meet.  Each limb is a tube about its line, whose sections are ellipses like the limb's own: a flat
 /// chest is a flat tube.  Towards a joint, where sections open into other limbs, it goes on with the one that it has
 /// where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an ellipsoid.  What
-/// lies there in the tube of a limb that is thicker, all in all, belongs to that; else it belongs to the limb whose tube it
-/// lies deepest in, or is nearest to.  So an arm begins where it leaves the trunk, from the armpit to the top of the
+/// lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own tube to that; else it
+/// belongs to the limb whose tube it lies deepest in, or is nearest to.  So an arm begins where it leaves the trunk, from the armpit to the top of the
 /// shoulder, equal limbs share their joint evenly, and a joint itself has nothing.
-/// A link within the tube of a longer limb, whole, has nothing either.  Keeps references to its arguments.
+/// A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing either.  Keeps references to its arguments.
 class LimbTubes {
  public:
   /// See LimbSections::ellipse().
@@ -49,11 +49,11 @@ class LimbTubes {
   struct Limb {
     std::vector<std::uint32_t> vertices;
     std::vector<Ring> rings = {};  // per vertex; none of a line by itself
-    double size = 0;               // how thick it is in the middle of its vertices
+    double size = 0;               // three in four vertices are thicker: the rest may lie in others
     std::array<std::vector<std::uint32_t>, 2> thicker = {},
                                               others = {};  // that meet it there, the thickest first
     Box box = {};                                           // round the tube
-    std::uint32_t within = kNone;                           // the limb that it is a part of
+    bool is_hidden = false;                                 // in the tubes of others, whole
 
     std::uint32_t end(std::size_t which) const { return which == 0 ? vertices.front() : vertices.back(); }
     std::uint32_t at(std::size_t which, std::size_t n) const {  // the n-th from an end
@@ -75,11 +75,12 @@ class LimbTubes {
   Ring leaving(const Limb& limb, const Free& free, std::size_t end) const;
   void go_on_into_joints(Limb& limb);
   void compare(Limb& limb, std::size_t end) const;
-  void find_within(Limb& limb) const;
+  void find_hidden();
+  template <class Fulfils>
+  bool any_beside(const Limb& limb, const Fulfils& fulfils) const;
   double depth_below(const Limb& limb, std::size_t n, const Vec3& at) const;
   std::size_t nearest_in(const Limb& limb, const Vec3& at) const;
   std::uint32_t own_vertex(const Limb& limb, std::size_t n) const;
-  bool has_vertex(const Limb& limb) const { return !is_joint(own_vertex(limb, 0)); }
   bool holds(const Limb& limb, const Vec3& at) const;
   std::uint32_t off_joint(std::uint32_t vertex, const Vec3& at) const;
 

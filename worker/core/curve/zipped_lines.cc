@@ -122,11 +122,10 @@ class Zip {
     Beside best;
     for (const LineEnd& a : at_[joint]) {
       const Line p = turned(parts_[a.line], a.back);
-      if (p.size() < 3 || p.front() == p.back()) continue;
+      if (p.size() < 3) continue;
       for (const LineEnd& b : at_[joint]) {
         if (a.line == b.line) continue;
         const Line q = turned(parts_[b.line], b.back);
-        if (q.front() == q.back()) continue;
         Beside found = beside(p, q);
         if (found.length == 0) continue;
         found.sliding = a.line;

@@ -98,6 +98,23 @@ TEST(ZippedLines, HandlesKeepTheirTunnelsAndLeaveNoStub) {
   EXPECT_EQ(jar.zipped().segments.size(), lines.segments.size()) << "the same again";
 }
 
+// A handle whose line comes back to the joint at the neck from deep in the belly, beside the jar's axis.
+TEST(ZippedLines, ALoopSlidesAlongWhatItRunsBeside) {
+  Strands jar;
+  const std::uint32_t neck = jar.add({0, 0, 4}, 0.8);
+  jar.tips.push_back(jar.go(neck, {0, 0, -0.1}, 80, 1));
+  const std::uint32_t out = jar.go(neck, {0.1, 0, 0}, 25, 0.2);
+  const std::uint32_t down = jar.go(out, {0, 0, -0.1}, 30, 0.2);
+  const std::uint32_t deep = jar.go(down, {-0.1, 0, 0}, 24, 0.9);
+  jar.join(jar.go(deep, {-0.002, 0, 0.1}, 29, 0.95), neck);
+  const SheetLines lines = jar.zipped();
+  EXPECT_EQ(euler(lines), 0) << "one tunnel";
+  const auto found = nodes(jar, lines);
+  EXPECT_EQ(found.count(1), 1U);
+  ASSERT_EQ(found.count(3), 1U);
+  EXPECT_NEAR(found.find(3)->second.z, 1, 0.2);
+}
+
 // Two lines between the same joints enclose a tunnel of the lattice, however near they lie: it stays.
 TEST(ZippedLines, ALoopIsNotClosed) {
   Strands loop;
