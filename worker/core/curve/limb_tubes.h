@@ -14,13 +14,14 @@
 
 namespace affskel::core {
 
-/// Parts a solid where its limbs meet.  Each limb is a tube about its line, whose sections are ellipses like the limb's own: a flat
-/// chest is a flat tube.  Towards a joint, where sections open into other limbs, it goes on with the one that it has
-/// where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an ellipsoid.  What
-/// lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own tube to that; else it
-/// belongs to the limb whose tube it lies deepest in, or is nearest to.  So an arm begins where it leaves the trunk, from the armpit to the top of the
-/// shoulder, equal limbs share their joint evenly, and a joint itself has nothing.
-/// A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing either.  Keeps references to its arguments.
+/// Parts a solid where its limbs meet. Each limb is a tube about its line, whose sections are ellipses like the limb's
+/// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
+/// that it has where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an
+/// ellipsoid. What lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own
+/// tube to that; else it belongs to the limb whose tube it lies deepest in, or is nearest to. So an arm begins where it
+/// leaves the trunk, from the armpit to the top of the shoulder, equal limbs share their joint evenly, and a joint
+/// itself has nothing. A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing
+/// either. Keeps references to its arguments.
 class LimbTubes {
  public:
   /// See LimbSections::ellipse().
