@@ -24,7 +24,8 @@ struct Tubed : DrawnLines {
       if (norm(places[v] - at) < norm(places[best] - at)) best = v;
     return best;
   }
-  Vec3 owner(const Vec3& at) const {
+  Vec3 owner(const Vec3& at) const { return owner(at, nearest(at)); }
+  Vec3 owner(const Vec3& at, std::uint32_t from) const {
     const auto ellipse = [&](const Vec3& place, const Vec3& u, const Vec3& v, double) {
       const Vec3 axes = ball[nearest(place)] * wide(place);
       const auto inverse_square = [&](const Vec3& a, const Vec3& b) {
@@ -36,7 +37,7 @@ struct Tubed : DrawnLines {
     std::vector<double> radius;
     for (std::size_t v = 0; v < ball.size(); ++v)
       radius.push_back((v < little ? 1 : 0.1) * ball[v] * std::sqrt(wide(places[v]).x));
-    return places[LimbTubes(places, segments, ball, radius, ellipse).vertex_of(at, nearest(at))];
+    return places[LimbTubes(places, segments, ball, radius, ellipse).vertex_of(at, from)];
   }
 };
 
@@ -129,7 +130,7 @@ TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {
 // Noise makes loops within a body's hips: as wide as these are, they have little of them for their length.
 TEST(LimbTubes, ALoopOfLittleVolumeIsThinHoweverWideItsBalls) {
   Tubed lines;
-  const std::uint32_t joint = lines.add({0, 0, 0}, 1);
+  const std::uint32_t joint = lines.add({0, 0, 0}, 2);
   lines.go(joint, {0, 0, 0.1}, 60, 2);
   lines.go(joint, {0.04, 0, -0.1}, 100, 1);
   lines.go(joint, {-0.04, 0, -0.1}, 100, 1);
@@ -137,8 +138,9 @@ TEST(LimbTubes, ALoopOfLittleVolumeIsThinHoweverWideItsBalls) {
   const std::uint32_t low = lines.go(back, {0, 0, -0.1}, 5, 1.5);
   lines.join(lines.go(low, {0, -0.0769, 0.0923}, 25, 1.5), joint);
   lines.little = lines.places.size() - 50;
-  EXPECT_GT(lines.owner({0.9, 0, -2}).x, 0.3);
-  EXPECT_EQ(lines.owner({0, 0.4, -3.4}).y, 0);
+  EXPECT_GT(lines.owner({0.3, 0, -2.05}).x, 0.3) << "in the leg's tube, and the loop's";
+  const std::uint32_t leg = lines.nearest({0.68, 0, -1.7});
+  EXPECT_EQ(lines.owner({0.3, 1.2, -1.7}, leg).y, 0) << "nearest to the leg, in the loop's tube alone";
 }
 
 // The limb that one hangs on is as thick as it is beyond the joint, however its line ends there.
