@@ -57,9 +57,15 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   message.set_opened(static_cast<std::uint32_t>(curve.opened.size()));
   for (std::size_t n = 0; n < std::min(kMaxPlaces, curve.opened.size()); ++n)
     set_place(field_.to_mesh(curve.opened[n].place), curve.opened[n].distance, *message.add_openings());
-  if (curve.segments.empty())
-    set_advice({"no limb is " + base::to_text(threshold_of(threshold)) +
-                    " of its own radii long: the curve is the place of the greatest E alone, without a line.",
+  if (!curve.segments.empty()) return message;
+  const std::string alone = "the curve is the place of the greatest E alone, without a line.";
+  if (curve.opened.empty())
+    set_advice(
+        {"no limb is " + base::to_text(threshold_of(threshold)) + " of its own radii long: " + alone, {}},
+        message);
+  else
+    set_advice({"the solid is a membrane round a cavity, and a line leads through limbs, not round that: " +
+                    alone + " The operator ridge has its sheet.",
                 {}},
                message);
   return message;

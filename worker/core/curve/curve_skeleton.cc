@@ -14,6 +14,7 @@
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"
 #include "core/curve/joined_links.h"
+#include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
 #include "core/curve/sheet_lines.h"
@@ -230,7 +231,9 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   };
   curve.slice =
       for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, neighbours, at, nearest); });
-  const LimbTubes tubes(places, curve.segments, balls,
+  const std::vector<double> radius =
+      limb_radii({places, curve.segments, curve.slice, curve.slice, balls, solid.volume});
+  const LimbTubes tubes(places, curve.segments, balls, radius,
                         [&](const Vec3& place, const Vec3& u, const Vec3& v, double reach) {
                           return sections.ellipse(place, u, v, reach);
                         });

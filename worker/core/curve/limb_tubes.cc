@@ -17,11 +17,10 @@ constexpr double kClearly = 1.1;
 
 constexpr std::size_t kRings = 4;  // vertices on either side whose outlines tell that of a joint
 
-// What one in so many is less than.
-double quantile(std::vector<double> values, std::size_t one_in) {
-  const auto found = values.begin() + static_cast<std::ptrdiff_t>(values.size() / one_in);
-  std::nth_element(values.begin(), found, values.end());
-  return *found;
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 double distance_to(const Box& box, const Vec3& at) {
@@ -32,9 +31,11 @@ double distance_to(const Box& box, const Vec3& at) {
 }  // namespace
 
 LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments,
-                     std::span<const double> ball, const EllipseAt& ellipse_at)
+                     std::span<const double> ball, std::span<const double> radius,
+                     const EllipseAt& ellipse_at)
     : places_(places),
       ball_(ball),
+      radius_(radius),
       limb_of_(places.size(), kNone),
       rank_(places.size(), 0),
       is_shared_(places.size(), 0),
@@ -119,7 +120,7 @@ LimbTubes::Free LimbTubes::free_part(const Limb& limb) const {
   std::vector<double> radii;
   for (std::size_t n = free.from[0]; n + free.from[1] <= last; ++n)
     radii.push_back(limb.rings[n].ellipse.radius());
-  const double open = kClearly * quantile(std::move(radii), 2);
+  const double open = kClearly * median(std::move(radii));
   for (std::size_t end = 0; end < 2; ++end)
     while (free.from[end] > 0 && free.from[0] + free.from[1] < last &&
            limb.rings[limb.index(end, free.from[end])].ellipse.radius() > open)
@@ -162,17 +163,17 @@ void LimbTubes::go_on_into_joints(Limb& limb) {
       is_shared_[limb.at(end, n)] = 1;
     }
   }
-  std::vector<double> thickness;
+  std::vector<double> radii;
   for (std::size_t n = 0; n < limb.vertices.size(); ++n) {
     const Ring& ring = limb.rings[n];
-    thickness.push_back(ring.thickness);
     const auto& [mean, cosine, sine] = ring.ellipse;
     const double most =
         std::max(ring.thickness, 1 / std::sqrt(mean - std::sqrt(cosine * cosine + sine * sine)));
     limb.box.include(places_[limb.vertices[n]] - Vec3{most, most, most});
     limb.box.include(places_[limb.vertices[n]] + Vec3{most, most, most});
+    if (!is_joint(limb.vertices[n])) radii.push_back(radius_[limb.vertices[n]]);
   }
-  limb.size = quantile(std::move(thickness), 4);
+  if (!radii.empty()) limb.size = median(std::move(radii));
 }
 
 void LimbTubes::compare(Limb& limb, std::size_t end) const {
@@ -282,8 +283,10 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
       limb.is_hidden ? std::numeric_limits<double>::infinity() : depth_below(limb, rank_[nearest], at);
   if (least < 0) return nearest;
   std::uint32_t owner = nearest;
+  // A handle has no more than what is nearest to it: noise makes some within a body's hips.
   any_beside(limb, [&](const Limb& other) {
-    if (distance_to(other.box, at) >= least) return false;
+    const bool is_handle = other.end(0) == other.end(1) && other.size <= limb.size;
+    if (is_handle || distance_to(other.box, at) >= least) return false;
     const std::size_t n = nearest_in(other, at);
     const double depth = depth_below(other, n, at);
     if (depth < least) {

@@ -14,23 +14,24 @@
 
 namespace affskel::core {
 
-/// Parts a solid where its limbs meet.  Each limb is a tube about its line, whose sections are ellipses like the limb's own: a flat
-/// chest is a flat tube.  Towards a joint, where sections open into other limbs, it goes on with the one that it has
-/// where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an ellipsoid.  What
-/// lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own tube to that; else it
-/// belongs to the limb whose tube it lies deepest in, or is nearest to.  So an arm begins where it leaves the trunk, from the armpit to the top of the
-/// shoulder, equal limbs share their joint evenly, and a joint itself has nothing.
-/// A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing either.  Keeps references to its arguments.
+/// Parts a solid where its limbs meet. Each limb is a tube about its line, whose sections are ellipses like the limb's
+/// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
+/// that it has where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an
+/// ellipsoid. What lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own
+/// tube to that; else it belongs to the limb whose tube it lies deepest in, or is nearest to. So an arm begins where it
+/// leaves the trunk, from the armpit to the top of the shoulder, equal limbs share their joint evenly, and a joint
+/// itself has nothing. A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing
+/// either. Keeps references to its arguments.
 class LimbTubes {
  public:
   /// See LimbSections::ellipse().
   using EllipseAt = std::function<LimbEllipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach)>;
 
-  /// @param places, ball per vertex, and its distance to the surface.  A limb is as thick as a disc as large as its
-  ///   section, but no more than kRoundest balls: what hangs on a plate begins on its face.
+  /// @param places, ball, radius per vertex: its distance to the surface, and see limb_radii(), of what is nearest to it.
+  ///   By those a limb is as thick as it is, however large the balls are where it lies in another.
   /// @param segments as for polylines().
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
-            const EllipseAt& ellipse_at);
+            std::span<const double> radius, const EllipseAt& ellipse_at);
 
   /// The vertex that a place belongs to.
   /// @param nearest the vertex of the lines that it is nearest to.
@@ -49,7 +50,7 @@ class LimbTubes {
   struct Limb {
     std::vector<std::uint32_t> vertices;
     std::vector<Ring> rings = {};  // per vertex; none of a line by itself
-    double size = 0;               // three in four vertices are thicker: the rest may lie in others
+    double size = 0;               // how thick it is in the middle of its vertices
     std::array<std::vector<std::uint32_t>, 2> thicker = {},
                                               others = {};  // that meet it there, the thickest first
     Box box = {};                                           // round the tube
@@ -85,7 +86,7 @@ class LimbTubes {
   std::uint32_t off_joint(std::uint32_t vertex, const Vec3& at) const;
 
   std::span<const Vec3> places_;
-  std::span<const double> ball_;
+  std::span<const double> ball_, radius_;
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "core/curve/drawn_lines.h"
 
@@ -15,23 +16,28 @@ struct Tubed : DrawnLines {
   // A limb is round; along one axis it may be so many times as wide.
   std::function<Vec3(const Vec3& place)> wide = [](const Vec3&) { return Vec3{1, 1, 1}; };
 
+  std::size_t little = SIZE_MAX;  // from that vertex on little is nearest
+
   std::uint32_t nearest(const Vec3& at) const {
     std::uint32_t best = 0;
     for (std::uint32_t v = 0; v < places.size(); ++v)
       if (norm(places[v] - at) < norm(places[best] - at)) best = v;
     return best;
   }
-  Vec3 owner(const Vec3& at) const {
+  Vec3 owner(const Vec3& at) const { return owner(at, nearest(at)); }
+  Vec3 owner(const Vec3& at, std::uint32_t from) const {
     const auto ellipse = [&](const Vec3& place, const Vec3& u, const Vec3& v, double) {
-      const double radius = ball[nearest(place)];
-      const Vec3 axes = radius * wide(place);
+      const Vec3 axes = ball[nearest(place)] * wide(place);
       const auto inverse_square = [&](const Vec3& a, const Vec3& b) {
         return a.x * b.x / (axes.x * axes.x) + a.y * b.y / (axes.y * axes.y) + a.z * b.z / (axes.z * axes.z);
       };
       const double uu = inverse_square(u, u), vv = inverse_square(v, v);
       return LimbEllipse{0.5 * (uu + vv), 0.5 * (uu - vv), inverse_square(u, v)};
     };
-    return places[LimbTubes(places, segments, ball, ellipse).vertex_of(at, nearest(at))];
+    std::vector<double> radius;
+    for (std::size_t v = 0; v < ball.size(); ++v)
+      radius.push_back((v < little ? 1 : 0.1) * ball[v] * std::sqrt(wide(places[v]).x));
+    return places[LimbTubes(places, segments, ball, radius, ellipse).vertex_of(at, from)];
   }
 };
 
@@ -76,9 +82,9 @@ TEST(LimbTubes, OnlyTheThickestGoesOnBeyondItsJoint) {
   Tubed lines;
   const std::uint32_t joint = lines.add({0, 0, 0}, 1);
   lines.go(joint, {-0.1, 0, 0}, 100, 1);
-  lines.go(joint, {0, 0, 0.1}, 100, 0.75);
+  lines.go(joint, {0, 0, 0.1}, 100, 0.5);
   lines.go(joint, {0.1, 0, 0}, 100, 0.3);
-  lines.wide = [](const Vec3& place) { return Vec3{place.z > 0 ? 2. : 1., 1, 1}; };
+  lines.wide = [](const Vec3& place) { return Vec3{place.z > 0 ? 2.6 : 1., 1, 1}; };
   EXPECT_GT(lines.owner({1.2, 0, 0.28}).z, 0);
   EXPECT_GT(lines.owner({1.2, 0, -0.2}).x, 1);
   EXPECT_LE(lines.owner({0.8, 0, -0.2}).x, 0) << "the thickest does";
@@ -119,6 +125,22 @@ TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {
     EXPECT_GT(dot(owner, way), 0) << "a joint has nothing";
     EXPECT_EQ(lines.owner(5 * way + Vec3{0.01, 0.02, 0}), 5 * way);
   }
+}
+
+// Noise makes loops within a body's hips: as wide as these are, they have little of them for their length.
+TEST(LimbTubes, ALoopOfLittleVolumeIsThinHoweverWideItsBalls) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 2);
+  lines.go(joint, {0, 0, 0.1}, 60, 2);
+  lines.go(joint, {0.04, 0, -0.1}, 100, 1);
+  lines.go(joint, {-0.04, 0, -0.1}, 100, 1);
+  const std::uint32_t back = lines.go(joint, {0, 0.1, -0.1}, 20, 1.5);
+  const std::uint32_t low = lines.go(back, {0, 0, -0.1}, 5, 1.5);
+  lines.join(lines.go(low, {0, -0.0769, 0.0923}, 25, 1.5), joint);
+  lines.little = lines.places.size() - 50;
+  EXPECT_GT(lines.owner({0.3, 0, -2.05}).x, 0.3) << "in the leg's tube, and the loop's";
+  const std::uint32_t leg = lines.nearest({0.68, 0, -1.7});
+  EXPECT_EQ(lines.owner({0.3, 1.2, -1.7}, leg).y, 0) << "nearest to the leg, in the loop's tube alone";
 }
 
 // The limb that one hangs on is as thick as it is beyond the joint, however its line ends there.

@@ -100,6 +100,26 @@ TEST(DeriveParts, OfACrossAreItsArms) {
   }
 }
 
+// A membrane round a cavity has no limb, and a line that went round it would be none.
+TEST(DeriveParts, OfAShellIsAPointAndItSaysWhy) {
+  core::Mesh shell = core::make_sphere(1, 320);
+  const auto inner = static_cast<std::uint32_t>(shell.points.size());
+  const std::size_t outer = shell.triangles.size();
+  for (std::uint32_t v = 0; v < inner; ++v) shell.points.push_back(0.8 * shell.points[v]);
+  for (std::size_t t = 0; t < outer; ++t) {
+    const auto [a, b, c] = shell.triangles[t];
+    shell.triangles.push_back({a + inner, c + inner, b + inner});
+  }
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.07);
+  const PreparedJob prepared(core::write_off(shell), params);
+  const v1::SolidParts solid = parts_of(prepared, finished_field(prepared));
+  ASSERT_EQ(solid.parts_size(), 1);
+  EXPECT_EQ(solid.parts(0).kind(), v1::PART_KIND_POINT);
+  EXPECT_EQ(solid.curve().quality().opened(), 1U);
+  EXPECT_NE(solid.curve().quality().advice().find("membrane round a cavity"), std::string::npos);
+}
+
 // A cube about one sample point.
 TEST(DeriveParts, OfOnePointIsAPoint) {
   v1::ErosionParams params = sample_params();
