@@ -366,8 +366,7 @@ class ChordDescent::Work {
   const PieceInput& in_;
   PieceFinder finder_;
   SaddleSearch saddles_;
-  Vec3 x_, d_;
-  Vec3 found_x_, found_d_;                          // the piece found last
+  Vec3 x_, d_, found_x_, found_d_;                  // the last two: of the piece found last
   std::vector<std::uint32_t> active_;               // saddles, at most two
   Stand piece_;                                     // of d_
   std::span<const SaddleSearch::Saddle> meetings_;  // of the step in hand
