@@ -22,7 +22,7 @@ constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
 constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
 constexpr int kMaxShorter = 6;          // of a step
-constexpr double kLeastGain = 1e-8;     // of the volume: a step that promises less is not made
+constexpr double kLeastGain = 1e-9;     // of the volume: a step that promises less is not made
 constexpr double kMinGain = 1e-12;      // of the volume: a lesser decrease is none
 constexpr double kLastGain = 1e-8;      // of the volume: after it, the next would be below rounding
 constexpr double kBeyond = 1e-9;        // how far below a saddle it is tried whether a part joins there
@@ -366,8 +366,7 @@ class ChordDescent::Work {
   const PieceInput& in_;
   PieceFinder finder_;
   SaddleSearch saddles_;
-  Vec3 x_, d_;
-  Vec3 found_x_, found_d_;                          // the piece found last
+  Vec3 x_, d_, found_x_, found_d_;                  // the last two: of the piece found last
   std::vector<std::uint32_t> active_;               // saddles, at most two
   Stand piece_;                                     // of d_
   std::span<const SaddleSearch::Saddle> meetings_;  // of the step in hand

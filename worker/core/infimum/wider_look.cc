@@ -22,7 +22,7 @@ constexpr double kReach = 0.6, kReachTriangles = 700;
 constexpr double kPairFirst = 1, kReachFirst = 2, kNearFirst = 3;
 constexpr double kMostPromised = 1.01;  // what a near place's plane may promise, likewise
 constexpr double kLesser = 1e-7;        // by which a piece must be less to take the place of another
-constexpr double kPairPromise = 2, kNearPromise = 1;  // DescentBound::promise
+constexpr double kPairPromise = 4, kNearPromise = 1;  // DescentBound::promise
 
 double reach(std::size_t triangles) {
   const double share = kReachTriangles / std::max(kReachTriangles, static_cast<double>(triangles));
