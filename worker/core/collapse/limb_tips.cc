@@ -92,13 +92,13 @@ class Thinning {
     static constexpr double kChord = 4;
 
     LimbTip tip;
-    bool begun = false;
     double rise = 0;    // at the tip: by how much the radius is ahead of a steep line's
     double lead = 0;    // where the limb begins: by how much births are
     double tip_at = 0;  // length before that
     double whole = 0;   // of the chords
     std::array<int, 3> chord{};
-    double time = 0;  // when it came to its end, from where, and along which edge
+    bool begun = false;  // here no larger: lines are many
+    double time = 0;     // when it came to its end, from where, and along which edge
     Cell from = 0, edge = 0;
 
     double length() const {
