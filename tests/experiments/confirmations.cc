@@ -14,11 +14,9 @@
 #include "core/erosion/join_tree.h"
 #include "core/erosion/place_chords.h"
 #include "core/erosion/tree_input.h"
-#include "core/shapes/shapes.h"
-#include "core/test_solids.h"
 #include "experiments.h"
 #include "fields.h"
-#include "reference/hard_solids.h"
+#include "infimum_solids.h"
 
 namespace affskel::experiments {
 namespace {
@@ -158,21 +156,8 @@ void confirmation_experiment(const Setting& setting, Report& report) {
       "the volumes of join trees over very many directions, of which the six least that are well apart are followed "
       "down by a pattern search. Same: within 1e-6; above: the search found less; below: it "
       "found no plane as good, and those beside the refined one cut off E to 1e-5, as trees say, where it is attained.");
-  struct Case {
-    std::string name;
-    core::Mesh mesh;
-    double spacing;
-  };
-  std::vector<Case> cases = {{"body of 292", setting.body(292), setting.spacing()},
-                             {"torus of 256", core::make_torus(3, 1, 256), 0.2}};
-  if (!setting.quick) {
-    cases.push_back({"body of 1000", setting.body(1000), setting.spacing()});
-    cases.push_back({"cup", core::shaken(core::cup(24), 0, 2), 0.1});
-    cases.push_back({"comb", core::shaken(core::comb(6), 0, 3), 0.2});
-    cases.push_back({"helix", reference::make_helix(3, 0.7, 2, 3, 24, 8), 0.2});
-  }
   Table table{{"solid", "points", "same", "above", "worst", "below", "of these attained"}, {}};
-  for (const Case& one : cases) {
+  for (const InfimumSolid& one : infimum_solids(setting)) {
     const Confirmed found = confirm(one.mesh, one.spacing, setting.quick ? 2000 : 100000, setting.threads);
     table.rows.push_back({one.name, format("%u", found.points), format("%u", found.same),
                           format("%u", found.above), format("%.2g %%", 100 * found.worst),

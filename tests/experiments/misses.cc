@@ -11,11 +11,9 @@
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
 #include "core/infimum/least_chord.h"
-#include "core/shapes/shapes.h"
-#include "core/test_solids.h"
 #include "experiments.h"
 #include "fields.h"
-#include "reference/hard_solids.h"
+#include "infimum_solids.h"
 
 namespace affskel::experiments {
 namespace {
@@ -68,22 +66,8 @@ void miss_experiment(const Setting& setting, Report& report) {
   report.text(
       "Not published. All sample points of each solid against the least of " + std::to_string(directions) +
       " directions and the mesh's normals, followed down from where they find less than the refinement did.");
-  struct Case {
-    std::string name;
-    core::Mesh mesh;
-    double spacing;
-  };
-  std::vector<Case> cases = {{"body of 292", setting.body(292), setting.spacing()},
-                             {"torus of 256", core::make_torus(3, 1, 256), 0.2}};
-  if (!setting.quick) {
-    cases.push_back({"body of 500", setting.body(500), setting.spacing()});
-    cases.push_back({"body of 1000", setting.body(1000), setting.spacing()});
-    cases.push_back({"cup", core::shaken(core::cup(24), 0, 2), 0.1});
-    cases.push_back({"comb", core::shaken(core::comb(6), 0, 3), 0.2});
-    cases.push_back({"helix", reference::make_helix(3, 0.7, 2, 3, 24, 8), 0.2});
-  }
   Table table{{"solid", "points", "above by 1e-6", "by 1e-3", "the worst by"}, {}};
-  for (const Case& one : cases) {
+  for (const InfimumSolid& one : infimum_solids(setting)) {
     const Missed missed = look_for(one.mesh, one.spacing, directions, setting.threads);
     table.rows.push_back({one.name, format("%u", missed.points), format("%u", missed.above),
                           format("%u", missed.far), format("%.2g %%", 100 * missed.worst)});
