@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <queue>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -55,11 +58,15 @@ class Pruning {
       order.emplace_back(least, std::move(line));
     }
     std::sort(order.begin(), order.end());
-    const auto found =
-        std::find_if(order.begin(), order.end(), [&](const auto& one) { return is_small(one.second); });
-    if (found == order.end()) return false;
-    open(found->second);
-    return true;
+    for (const auto& [least, line] : order) {
+      if (large_.contains(line)) continue;
+      if (is_small(line)) {
+        open(line);
+        return true;
+      }
+      large_.insert(line);
+    }
+    return false;
   }
 
   // Whether a line closes a loop that lies in a ball about one of its places.
@@ -130,22 +137,27 @@ class Pruning {
     }
   }
 
-  // Ends near the surface of what they leave, the shortest first.
+  // Ends near the surface of what they leave, the shortest first. What goes only leaves others farther outside.
   void eat_spurs() {
-    while (true) {
-      std::pair<double, Line> least{0, {}};
-      for (std::uint32_t v = 0; v < beside_.size(); ++v) {
-        if (beside_[v].size() != 1) continue;
-        Line line = line_from(v);
-        const std::uint32_t root = line.back();
-        if (beside_[root].size() < 3) continue;
-        const double beyond = beyond_others(line);
-        if (beyond < kSpur && (least.second.empty() || beyond < least.first))
-          least = {beyond, std::move(line)};
-      }
-      const Line& line = least.second;
-      if (line.empty()) return;
-      erase(line);
+    using Spur = std::pair<double, std::uint32_t>;
+    std::priority_queue<Spur, std::vector<Spur>, std::greater<>> spurs;
+    const auto look_at = [&](std::uint32_t end, double known) {
+      const Line line = line_from(end);
+      if (beside_[line.back()].size() < 3) return;
+      const double beyond = beyond_others(line);
+      if (beyond >= kSpur) return;
+      if (beyond > known)
+        spurs.push({beyond, end});
+      else
+        erase(line);
+    };
+    for (std::uint32_t v = 0; v < beside_.size(); ++v)
+      if (beside_[v].size() == 1) look_at(v, -HUGE_VAL);
+    while (!spurs.empty()) {
+      throw_if_stopped(options_.context);
+      const auto [beyond, end] = spurs.top();
+      spurs.pop();
+      look_at(end, beyond);
     }
   }
 
@@ -203,6 +215,7 @@ class Pruning {
   std::vector<Segment> segments_;     // that are left
   std::vector<std::uint32_t> loose_;  // where loops were opened
   std::vector<Line> beside_;          // per vertex, by them
+  std::set<Line> large_;  // that close no loop within a ball: with less beside them they do not either
 };
 
 }  // namespace
