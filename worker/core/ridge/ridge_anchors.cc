@@ -179,16 +179,12 @@ class Choice {
     for (const Anchor& anchor : result_.anchors)
       for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     for (const LimbTip& tip : evidence_.limbs) {
-      const bool reached = is_near_enough(tip.root, constants_.tip_distance * tip.radius, anchored) &&
-                           is_near_enough(tip.vertex, allowed_from(tip), anchored);
-      if (taken_.has(tip.vertex) || reached) continue;
+      if (taken_.has(tip.vertex) ||
+          is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), anchored))
+        continue;
       take({tip.vertex, 0});
       ++result_.limbs;
     }
-  }
-
-  bool is_near_enough(Cell vertex, double longest, const std::vector<char>& anchored) const {
-    return is_near(complex_, vertex, static_cast<float>(longest), anchored);
   }
 
   // How far from a tip what is anchored may end: so far from the surface, which is the tip's own radius farther away.

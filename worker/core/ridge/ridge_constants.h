@@ -35,10 +35,8 @@ struct RidgeConstants {
   double min_area = 1;
   double min_length = 2;
 
-  // Limbs: so many times as long as thick, that begin farther than so many radii from what is anchored, or end farther
-  // than so many radii and spacings from it.
+  // Limbs: so many times as long as thick, that end farther than so many radii and spacings from what is anchored.
   double limb_reach = 0.9;
-  double tip_distance = 0.5;
   double end_radii = 1.2;
   double end_spacings = 1;
 };

@@ -26,7 +26,7 @@ constexpr int kFreePasses = 60;       // of ways and membranes: over about five 
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
 constexpr double kThin = 2;           // a vertex moves freely about points farther from the surface, spacings
-constexpr int kLinePasses = 8;        // of ways and curves, where they meet
+constexpr int kLinePasses = 30;       // of ways and curves
 
 class Placing {
  public:
@@ -43,9 +43,11 @@ class Placing {
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
-    even_out(rim_neighbours_, fixed_on_rim(), kRimPasses, false, context);
-    even_out(neighbours_, bound_, kFreePasses, true, context);
-    even_out(neighbours_, fixed_on_lines(), kLinePasses, false, context);
+    even_out(fixed_on_rim(), kRimPasses, context,
+             [&](std::uint32_t v) { return 0.5 * way_to_mean(v, rim_neighbours_); });
+    even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
+    const std::vector<char> fixed = fixed_on_lines();
+    even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
     take_values();
     make_faces();
     return std::move(mesh_);
@@ -187,21 +189,17 @@ class Placing {
     return fixed;
   }
 
-  // In each pass every vertex that is not fixed goes half way to the mean of its neighbours, and on lines, when
-  // asked to, towards the crest of P, as far as the solid lets it; those that had a place go back at the end.
-  void even_out(const Groups<std::uint32_t>& neighbours, const std::vector<char>& fixed, int passes,
-                bool to_crest, ExecutionContext* context) {
+  // In each pass every vertex that is not fixed goes along step(v), as far as the solid lets it in the end.
+  template <class Step>
+  void even_out(const std::vector<char>& fixed, int passes, ExecutionContext* context, const Step& step) {
     std::vector<std::uint32_t> moving;
     for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v)
-      if (!fixed[v] && !neighbours[v].empty()) moving.push_back(v);
+      if (!fixed[v]) moving.push_back(v);
     std::vector<Vec3> before(moving.size()), moved(moving.size());
-    for (std::size_t n = 0; n < moving.size(); ++n) before[n] = mesh_.vertices[moving[n]].position;
+    for (std::size_t n = 0; n < moving.size(); ++n) before[n] = place(moving[n]);
     for (int pass = 0; pass < passes; ++pass) {
       throw_if_stopped(context);
-      for (std::size_t n = 0; n < moving.size(); ++n) {
-        moved[n] = drawn(moving[n], neighbours, to_crest);
-        if (!bound_[moving[n]]) moved[n] = kept_off_surface(moving[n], moved[n]);
-      }
+      for (std::size_t n = 0; n < moving.size(); ++n) moved[n] = place(moving[n]) + step(moving[n]);
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
     }
     StopCheck stop(context);
@@ -213,44 +211,59 @@ class Placing {
     }
   }
 
-  // Where its neighbours draw a vertex, and the crest of P.  The end of a line goes on as the line does.
-  Vec3 drawn(std::uint32_t v, const Groups<std::uint32_t>& neighbours, bool to_crest) {
-    const auto place = [&](std::uint32_t vertex) { return mesh_.vertices[vertex].position; };
+  const Vec3& place(std::uint32_t v) const { return mesh_.vertices[v].position; }
+
+  // From a vertex to the mean of its neighbours.
+  Vec3 way_to_mean(std::uint32_t v, const Groups<std::uint32_t>& neighbours) const {
     const auto around = neighbours[v];
-    if (around.size() == 1) {
-      const auto beyond = neighbours[around[0]];
-      if (beyond.size() != 2) return place(v);
-      const Vec3 along = unit(place(around[0]) - place(beyond[beyond[0] == v ? 1 : 0]));
-      const Vec3 step = place(v) - place(around[0]);
-      return place(v) + 0.5 * (dot(step, along) * along - step);
-    }
-    Vec3 mean;
-    for (const std::uint32_t to : around) mean = mean + (1 / static_cast<double>(around.size())) * place(to);
-    const Vec3 middle = 0.5 * (place(v) + mean);
-    if (!to_crest || around.size() != 2) return middle;
-    return middle + way_to_crest(v, unit(place(around[1]) - place(around[0])));
+    Vec3 way;
+    for (const std::uint32_t to : around)
+      way = way + (1 / static_cast<double>(around.size())) * (place(to) - place(v));
+    return way;
   }
 
-  // How far a vertex goes towards a place without coming nearer to the surface than a ridge may: along the surface
-  // where it is as near as that, and off it, not far at a time, where it is nearer.
-  Vec3 kept_off_surface(std::uint32_t v, const Vec3& to) {
+  // Where its neighbours draw a vertex, and on lines the crest of P.  The end of a line goes on as the line does.
+  Vec3 drawn(std::uint32_t v) {
+    const auto around = neighbours_[v];
+    if (around.size() == 1) {
+      const auto beyond = neighbours_[around[0]];
+      if (beyond.size() != 2) return {};
+      const Vec3 along = unit(place(around[0]) - place(beyond[beyond[0] == v ? 1 : 0]));
+      const Vec3 step = place(v) - place(around[0]);
+      return 0.5 * (dot(step, along) * along - step);
+    }
+    const Vec3 half = 0.5 * way_to_mean(v, neighbours_);
+    return around.size() == 2 ? half + way_to_crest(v, unit(place(around[1]) - place(around[0]))) : half;
+  }
+
+  // Less bent, on a line: a line drawn straight instead would be a string, with a corner where the surface holds it off.
+  Vec3 unbent(std::uint32_t v, const std::vector<char>& fixed) const {
+    Vec3 way = 0.25 * way_to_mean(v, neighbours_);
+    for (const std::uint32_t to : neighbours_[v])
+      if (!fixed[to]) way = way - 0.125 * way_to_mean(to, neighbours_);
+    return way;
+  }
+
+  // How much of a way a vertex goes without coming nearer to the surface than a ridge may: along the surface where it is
+  // as near as that, and off it, not far at a time, where it is nearer.
+  Vec3 kept_off_surface(std::uint32_t v, const Vec3& way) {
     walk(v);
     const SheetVertex& vertex = mesh_.vertices[v];
     const auto radius = static_cast<double>(from_.radius[vertex.point]);
     const double least = from_.min_radius_share * static_cast<double>(from_.derivatives[vertex.point].depth);
-    if (radius >= kThin && is_surely_deep(radius, least)) return to;
+    if (radius >= kThin && is_surely_deep(radius, least)) return way;
     Clear& known = clear_[v];  // of a vertex that hardly moves any more it holds for many passes
-    if (norm(to - known.about) < known.radius - from_.lattice.spacing * least) return to;
+    if (norm(vertex.position + way - known.about) < known.radius - from_.lattice.spacing * least) return way;
     const Vec3 at = (1 / from_.lattice.spacing) * vertex.position, off = at - from_.nearest.nearest_place(at);
     const double distance = norm(off);
     known = {vertex.position, from_.lattice.spacing * distance};
-    if (distance == 0) return vertex.position;
+    if (distance == 0) return {};
     const Vec3 away = (1 / distance) * off;
-    const double given = dot(to - vertex.position, away) / from_.lattice.spacing;
+    const double given = dot(way, away) / from_.lattice.spacing;
     const double wanted = std::max(given, std::min(least - distance, kLongestStep));
-    const Vec3 kept = to + (from_.lattice.spacing * (wanted - given)) * away;
+    const Vec3 kept = way + (from_.lattice.spacing * (wanted - given)) * away;
     // What goes less far than the surface is away stays inside.
-    return norm(kept - vertex.position) < known.radius || inside(kept) ? kept : vertex.position;
+    return norm(kept) < known.radius || inside(vertex.position + kept) ? kept : Vec3{};
   }
 
   // Across a line: Newton's step to where P is greatest, not far at a time.

@@ -38,6 +38,7 @@ struct SkeletonParts {
 /// 3. All others begin in the middle of the sample points about them, and are drawn to the mean of their
 ///    neighbours, ways also to where P is greatest across them if that is near, as far as they stay off the
 ///    surface: they become smooth, and follow a ridge where there is a weak one.  A line's end goes on straight.
+/// 4. Lines, curves too, are unbent between their ends and branches.
 /// @param left of the complex: squares, edges and vertices, closed under taking boundaries.
 /// @return a vertex for each of the complex, two triangles for each square, a segment for each edge of no
 ///   square; of edges with the same ends see SkeletonCells.  Triangles agree on their senses, see

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_fields.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -15,6 +17,8 @@
 #include "core/quality/sheet_topology.h"
 #include "core/ridge/local_depth.h"
 #include "core/shapes/body.h"
+#include "core/shapes/edge_collapse.h"
+#include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/distance_to_mesh.h"
@@ -307,6 +311,42 @@ TEST(RidgeSheet, KeepsOffTheSurfaceAndHasNoTriangleWithoutArea) {
     const auto at = [&](std::uint32_t v) { return sheet.vertices[v].position; };
     for (const auto& [a, b, c] : sheet.triangles)
       EXPECT_GT(0.5 * norm(cross(at(b) - at(a), at(c) - at(a))), 1e-5 * h * h);
+  }
+}
+
+double to_block(const Vec3& p, const Vec3& centre, const Vec3& half) {
+  const Vec3 q = p - centre;
+  const double x = std::abs(q.x) - half.x, y = std::abs(q.y) - half.y, z = std::abs(q.z) - half.z;
+  return norm(Vec3{std::max(x, 0.0), std::max(y, 0.0), std::max(z, 0.0)}) +
+         std::min(0.0, std::max({x, y, z})) - 0.04;
+}
+
+// Ways lead from the seat round into the legs: drawn straight they had a corner of 34 degrees where the surface held them
+// off.
+TEST(RidgeSheet, OfAStoolHasNoCornersInItsWays) {
+  const auto stool = [](const Vec3& p) {
+    double least = to_block(p, {0, 0, 0}, {0.5, 0.5, 0.05});
+    for (const double x : {-0.44, 0.44})
+      for (const double y : {-0.44, 0.44})
+        least = std::min(least, to_block(p, {x, y, -0.5}, {0.04, 0.04, 0.5}));
+    return least;
+  };
+  const Mesh mesh =
+      collapse_edges(moved(mesh_zero_set(stool, {{-1, -1, -1.2}, {1, 1, 0.4}, 0.04}), {2, 0, 0}), 2000);
+  for (const double h : {1.0 / 34, 1.0 / 40}) {
+    const ErodedSolid solid(mesh, axes(h), "sphere:1280");
+    const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+    std::vector<std::vector<std::uint32_t>> beside(sheet.vertices.size());
+    for (const auto& [a, b] : sheet.segments) {
+      beside[a].push_back(b);
+      beside[b].push_back(a);
+    }
+    const auto at = [&](std::uint32_t v) { return sheet.vertices[v].position; };
+    for (std::uint32_t v = 0; v < beside.size(); ++v) {
+      if (beside[v].size() != 2 || sheet.vertices[v].kind != SkeletonKind::kWay) continue;
+      const Vec3 before = unit(at(v) - at(beside[v][0])), after = unit(at(beside[v][1]) - at(v));
+      EXPECT_GT(dot(before, after), 0.5 * std::numbers::sqrt3) << h << ' ' << v;  // 30 degrees
+    }
   }
 }
 
