@@ -21,17 +21,22 @@ constexpr std::size_t kMostSaddles = 2 * (NearPlaces::kMost + 1) + kNearest;
 constexpr double kReach = 0.6, kReachTriangles = 700;
 // What the first piece of a plane may be, in known ones: of pairs, of those that touch any saddle, of near places'.
 constexpr double kPairFirst = 1, kReachFirst = 2, kNearFirst = 3;
-// What a near place's plane may promise, likewise: one that touches two saddles, others.
-constexpr double kPairPromised = 1.1, kMostPromised = 1.01;
-// By how much more, times the fourth power of the change of E^(1/3) on the way, as a share: where that is great, near
+// What a near place's plane may promise, likewise; and what more of up to so many triangles, with more it is less in
+// proportion: one that touches two saddles, others.
+constexpr double kMostPromised = 1.01, kMoreOfPair = 0.09, kMoreOfOther = 0.04, kPromiseTriangles = 1000;
+// And so much more, times the fourth power of the change of E^(1/3) on the way, as a share: where that is great, near
 // the surface, a place's normal is of no use one step on, and neither is what it promises.
-constexpr double kBend = 0.05;
+constexpr double kBend = 0.1;
 // A near place's plane that promises so little, in known pieces, is followed to the end, whatever it cuts off at first.
-constexpr double kFarLess = 0.5;
+constexpr double kFarLess = 0.25;
 constexpr double kOneBasin = 0.995;  // cosine: planes touching the same saddles are nearer to each other
 constexpr double kLesser = 1e-7;     // by which a piece must be less to take the place of another
-constexpr double kPairPromise = 4, kNearPromise = 1;               // DescentBound::promise
-constexpr double kNone = std::numeric_limits<double>::infinity();  // as a bound
+constexpr double kPairPromise = 4, kNearPromise = 1, kBendPromise = 4;  // DescentBound::promise
+constexpr double kNone = std::numeric_limits<double>::infinity();       // as a bound
+
+double generosity(std::size_t triangles) {
+  return std::min(1.0, kPromiseTriangles / static_cast<double>(triangles));
+}
 
 double reach(std::size_t triangles) {
   const double share = kReachTriangles / std::max(kReachTriangles, static_cast<double>(triangles));
@@ -45,6 +50,7 @@ class Look {
        ChordDescent& descent)
       : in_(input),
         x_(x),
+        generosity_(generosity(input.mesh.triangles.size())),
         known_(least[point]),
         best_(known_),
         near_(near),
@@ -159,13 +165,17 @@ class Look {
     if (share < kFarLess) {
       go_down(offer, kNone, kNone);
     } else if (!near_.holds_more(touching(offer), best_.erosion)) {
-      go_down(offer, kNearFirst, kNearPromise);
+      go_down(offer, kNearFirst, kNearPromise + kBendPromise * bend(way));
     }
   }
 
   double most_promised(const LeastChord& offer, const Vec3& way) const {
+    return kMostPromised + generosity_ * (offer.kind() == 2 ? kMoreOfPair : kMoreOfOther) + bend(way);
+  }
+
+  double bend(const Vec3& way) const {
     const double change = norm(way) * known_.slope / (3 * known_.erosion), square = change * change;
-    return (offer.kind() == 2 ? kPairPromised : kMostPromised) + kBend * square * square;
+    return generosity_ * kBend * square * square;
   }
 
   bool is_tried(const LeastChord& start) const {
@@ -192,6 +202,7 @@ class Look {
 
   const PieceInput& in_;
   const Vec3 x_;
+  const double generosity_;
   const LeastChord known_;
   LeastChord best_;
   const NearPlaces& near_;
