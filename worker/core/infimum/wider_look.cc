@@ -21,21 +21,23 @@ constexpr std::size_t kMostSaddles = 2 * (NearPlaces::kMost + 1) + kNearest;
 constexpr double kReach = 0.6, kReachTriangles = 700;
 // What the first piece of a plane may be, in known ones: of pairs, of those that touch any saddle, of near places'.
 constexpr double kPairFirst = 1, kReachFirst = 2, kNearFirst = 3;
-// What a near place's plane may promise, likewise; and what more of up to so many triangles, with more it is less in
-// proportion: one that touches two saddles, others.
+// What a near place's plane may promise, likewise; and what more of up to so many triangles, with more it is less by
+// the square, as a piece takes longer: one that touches two saddles, others.
 constexpr double kMostPromised = 1.01, kMoreOfPair = 0.09, kMoreOfOther = 0.04, kPromiseTriangles = 1000;
-// And so much more, times the fourth power of the change of E^(1/3) on the way, as a share: where that is great, near
-// the surface, a place's normal is of no use one step on, and neither is what it promises.
+// And more by so much, at most 1, times the fourth power of the change of E^(1/3) on the way, as a share: where that
+// is great, near the surface, a place's normal is of no use one step on, and neither is what it promises.
 constexpr double kBend = 0.1;
 // A near place's plane that promises so little, in known pieces, is followed to the end, whatever it cuts off at first.
 constexpr double kFarLess = 0.25;
-constexpr double kOneBasin = 0.995;  // cosine: planes touching the same saddles are nearer to each other
-constexpr double kLesser = 1e-7;     // by which a piece must be less to take the place of another
+// 1 - cosine of planes that touch the same saddles and lead to one piece: of the known one. More of many triangles.
+constexpr double kOneBasin = 0.005, kMoreBasin = 0.015;
+constexpr double kLesser = 1e-7;  // by which a piece must be less to take the place of another
 constexpr double kPairPromise = 4, kNearPromise = 1, kBendPromise = 4;  // DescentBound::promise
 constexpr double kNone = std::numeric_limits<double>::infinity();       // as a bound
 
 double generosity(std::size_t triangles) {
-  return std::min(1.0, kPromiseTriangles / static_cast<double>(triangles));
+  const double share = kPromiseTriangles / std::max(kPromiseTriangles, static_cast<double>(triangles));
+  return share * share;
 }
 
 double reach(std::size_t triangles) {
@@ -158,7 +160,9 @@ class Look {
   }
 
   void try_plane_of(const LeastChord& offer, const Vec3& way) {
-    if (offer.saddles == best_.saddles && dot(offer.normal, best_.normal) > kOneBasin) return;
+    if (offer.saddles == best_.saddles &&
+        dot(offer.normal, best_.normal) > 1 - kOneBasin - kMoreBasin * (1 - generosity_))
+      return;
     const double share = promised(offer, -1 * way) / best_.erosion;
     if (share > most_promised(offer, way) || is_tried(offer)) return;
     tried_[tries_++] = &offer;
@@ -175,7 +179,7 @@ class Look {
 
   double bend(const Vec3& way) const {
     const double change = norm(way) * known_.slope / (3 * known_.erosion), square = change * change;
-    return generosity_ * kBend * square * square;
+    return generosity_ * std::min(1.0, kBend * square * square);
   }
 
   bool is_tried(const LeastChord& start) const {
