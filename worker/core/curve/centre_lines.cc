@@ -9,6 +9,7 @@
 
 #include "core/base/groups.h"
 #include "core/base/matrix3.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/polylines.h"
@@ -37,6 +38,10 @@ constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known 
 
 // How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
 constexpr double kHold = 0.02;
+
+// The mean of the squared sines between a direction and the lines of a joint: along one with less than the first, lines
+// that are about parallel do not tell where they meet, and with more than the other they do.
+constexpr double kParallel = 0.12, kOblique = 0.22;
 
 // Least squares.
 class ParabolaFit {
@@ -77,6 +82,7 @@ class CentreLines {
   void run() {
     find_balls();
     make_smooth(kPasses, false);
+    start_ = places_;
     for (int round = 0; round < kRounds; ++round) {
       throw_if_stopped(input_.context);
       find_balls();
@@ -220,21 +226,27 @@ class CentreLines {
     }
   }
 
+  // Where the lines of a joint meet, by least squares.
+  struct Meeting {
+    Matrix3 sum{}, angles{};
+    Vec3 side;
+    double lines = 0;
+  };
+
   // Joints, and what lies in their balls.
   void meet() {
     std::vector<Free> free;
     for (const auto& line : lines_) free.push_back(free_part(line));
-    std::vector<Matrix3> sum(places_.size(), Matrix3{});
-    std::vector<Vec3> side(places_.size());
+    std::vector<Meeting> meetings(places_.size());
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       if (free[l].first >= free[l].last) continue;
       for (const bool from_last : {false, true}) {
         const std::uint32_t joint = from_last ? lines_[l].back() : lines_[l].front();
-        if (is_joint(joint)) add_line(lines_[l], free[l], from_last, sum[joint], side[joint]);
+        if (is_joint(joint)) add_line(lines_[l], free[l], from_last, meetings[joint]);
       }
     }
     for (std::uint32_t v = 0; v < places_.size(); ++v)
-      if (is_joint(v)) move_joint(v, sum[v], side[v]);
+      if (is_joint(v)) move_joint(v, meetings[v]);
     for (std::size_t l = 0; l < lines_.size(); ++l) draw_straight(lines_[l], free[l]);
   }
 
@@ -255,8 +267,8 @@ class CentreLines {
   }
 
   // |(x - q) x t|^2, by the square of the limb's thickness there.
-  void add_line(const std::vector<std::uint32_t>& line, const Free& free, bool from_last, Matrix3& sum,
-                Vec3& side) const {
+  void add_line(const std::vector<std::uint32_t>& line, const Free& free, bool from_last,
+                Meeting& meeting) const {
     const std::size_t n = from_last ? free.last - 1 : free.first;
     const Vec3& q = places_[line[n]];
     const double ball = distance_.nearest(q);
@@ -266,27 +278,30 @@ class CentreLines {
     if (t == Vec3{}) return;
     const double weight = ball * ball;
     const Vec3 to = q - dot(q, t) * t;
-    side = side + weight * to;
+    meeting.side = meeting.side + weight * to;
+    meeting.lines += 1;
     for (std::size_t k = 0; k < 3; ++k) {
-      Vec3 column{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-      column = column - t[static_cast<int>(k)] * t;
-      sum[k] = sum[k] + weight * column;
+      const Vec3 column = kIdentity3[k] - t[static_cast<int>(k)] * t;
+      meeting.sum[k] = meeting.sum[k] + weight * column;
+      meeting.angles[k] = meeting.angles[k] + column;
     }
   }
 
-  void move_joint(std::uint32_t v, Matrix3 sum, Vec3 side) {
-    const double trace = sum[0].x + sum[1].y + sum[2].z;
+  // As far as its lines tell where they meet, and that is near.
+  void move_joint(std::uint32_t v, const Meeting& meeting) {
+    const double trace = meeting.sum[0].x + meeting.sum[1].y + meeting.sum[2].z;
     if (!(trace > 0)) return;
     const double hold = kHold * trace;
-    for (int k = 0; k < 3; ++k) {
-      sum[static_cast<std::size_t>(k)] =
-          sum[static_cast<std::size_t>(k)] +
-          hold * Vec3{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+    const Vec3 met = transposed_times(inverse_transposed(meeting.sum + hold * kIdentity3),
+                                      meeting.side + hold * places_[v]);
+    const SymmetricEigen told = symmetric_eigen((1 / meeting.lines) * meeting.angles);
+    Vec3 way;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double share = std::clamp((told.values[k] - kParallel) / (kOblique - kParallel), 0.0, 1.0);
+      way = way + share * dot(met - start_[v], told.vectors[k]) * told.vectors[k];
     }
-    side = side + hold * places_[v];
-    const Vec3 to = transposed_times(inverse_transposed(sum), side);
-    // Lines that meet farther away, such as those of legs that are about parallel, do not tell where the joint is.
-    if (norm(to - places_[v]) < ball_[v]) go(v, to);
+    const double away = norm(way);
+    go(v, start_[v] + (away > ball_[v] ? std::max(0.0, 2 * ball_[v] - away) / away : 1) * way);
   }
 
   // From the joint to the first vertex that is free, and from joint to joint where none is.
@@ -344,6 +359,7 @@ class CentreLines {
   const SolidMembership membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Groups<std::uint32_t> neighbours_;
+  std::vector<Vec3> start_;   // once smooth
   std::vector<Vec3> home_;    // where the round has found the vertices
   std::vector<double> ball_;  // per vertex: how far the surface is from there
 };

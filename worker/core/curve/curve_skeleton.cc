@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/cheapest_ways.h"
+#include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
 #include "core/base/matrix3.h"
 #include "core/base/require.h"
@@ -17,12 +18,14 @@
 #include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
+#include "core/curve/pruned_lines.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/curve/zipped_lines.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
 #include "core/ridge/row_band.h"
+#include "core/solid/betti_numbers.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 
@@ -164,9 +167,18 @@ Mesh surface_in_frame(const Solid& solid, const Lattice& lattice) {
   return surface;
 }
 
-void move_to_middle(const Solid& solid, const Lattice& lattice, const LimbEnds& ends,
+// Where lines run, instead of the distance to the surface, which falls by two standard deviations of noise.
+std::vector<double> thickness_along(const Mesh& surface, const SheetLines& lines,
+                                    std::span<const Vec3> places, std::span<const double> balls) {
+  const LimbSections sections(surface);
+  std::vector<double> thickness(balls.begin(), balls.end());
+  for (const std::uint32_t v : lines.vertices)
+    if (balls[v] > 0) thickness[v] = sections.thickness(places[v], LimbSections::kSeen * balls[v]);
+  return thickness;
+}
+
+void move_to_middle(const Mesh& surface, const Lattice& lattice, const LimbEnds& ends,
                     std::span<const std::uint32_t> lines, CurveSkeleton& curve, ExecutionContext* context) {
-  const Mesh surface = surface_in_frame(solid, lattice);
   std::vector<Vec3> places, tips;
   std::vector<char> has_tip;
   for (std::uint32_t v = 0; v < lines.size(); ++v) {
@@ -241,6 +253,16 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 
+// Than a surface has handles that crosses itself by noise.  Where surfaces pass through each other, what they bound together
+// may have tunnels that none has.
+std::uint64_t tunnels_of_noise(const Solid& solid, const SheetLines& lines) {
+  if (!solid.self_intersecting || solid.shells.size() > 1) return 0;
+  DisjointSets pieces(lines.vertices.size());
+  std::uint64_t loops = 0;
+  for (const auto& [a, b] : lines.segments) loops += !pieces.unite(a, b);
+  return loops - std::min(loops, betti_numbers(solid).holes);
+}
+
 // The lines in their places, and which vertices of the ridge theirs are.
 struct Drawn {
   CurveSkeleton curve;
@@ -251,14 +273,17 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
             const CurveOptions& options) {
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
+  const Mesh surface = surface_in_frame(solid, lattice);
   const std::vector<double> balls = balls_of(lattice, basis, ridge);
   LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
   SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
   add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
-  lines = with_joints(sheet_lines(ridge, ends.is_end, options.context), ends.is_end, balls, lattice.spacing,
-                      places, options.context);
+  lines = sheet_lines(ridge, ends.is_end, options.context);
+  lines = pruned_lines(lines, places, thickness_along(surface, lines, places, balls), ends.is_end,
+                       {tunnels_of_noise(solid, lines), options.least_reach, options.context});
+  lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
@@ -268,7 +293,7 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
     curve.vertices.back().position = places[v];
     curve.part.push_back(ridge.part[v]);
   }
-  move_to_middle(solid, lattice, ends, lines.vertices, curve, options.context);
+  move_to_middle(surface, lattice, ends, lines.vertices, curve, options.context);
   return {std::move(curve), std::move(lines.vertices)};
 }
 

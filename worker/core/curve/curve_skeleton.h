@@ -43,7 +43,7 @@ struct CurveSkeleton : SheetMesh {
 
 /// The curve skeleton: the skeleton of `ridge`, collapsed on to the middle of its surfaces (see sheet_lines()),
 /// with a branch straight on to the tip of every limb that is long enough.  It has the pieces and tunnels of that
-/// skeleton.  Lines are then made smooth without becoming shorter (Taubin, "A signal processing approach to fair
+/// skeleton, but for what noise bores where a surface crosses itself, see pruned_lines().  Lines are then made smooth without becoming shorter (Taubin, "A signal processing approach to fair
 /// surface design", 1995), within the solid.  A vertex keeps the values of the place on the ridge that it comes
 /// from, as far as a few spacings away.
 /// @param lattice of this solid.

@@ -12,6 +12,7 @@
 namespace affskel::core {
 namespace {
 
+constexpr double kShort = 0.15;     // of rays: in a tube along one of the axes half of those across it
 constexpr double kNothing = 1e-12;  // of the squared reach: a ray that short says nothing more
 
 // The boxes about a place that its plane goes through.
@@ -115,6 +116,18 @@ LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& 
     ellipse.sine *= kMost / flatness;
   }
   return ellipse;
+}
+
+double LimbSections::thickness(const Vec3& place, double reach) const {
+  const std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  std::array<double, 3 * kRays> all;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rays length = outline(place, axes[k], axes[(k + 1) % 3], reach);
+    std::copy(length.begin(), length.end(), all.begin() + k * kRays);
+  }
+  const auto at = all.begin() + static_cast<std::ptrdiff_t>(kShort * static_cast<double>(all.size()));
+  std::nth_element(all.begin(), at, all.end());
+  return *at;
 }
 
 double LimbEllipse::radius() const {

@@ -47,6 +47,11 @@ class LimbSections {
 
   static constexpr double kFlattest = 3;
 
+  /// How thick the solid is about a place: what a share of the rays in three planes at right angles falls short of.  In a
+  /// tube its radius, in a plate half its thickness; spikes and dents of noise, which the distance to the surface follows,
+  /// change it little.
+  double thickness(const Vec3& place, double reach) const;
+
  private:
   static constexpr std::size_t kRays = 32;
   using Rays = std::array<double, kRays>;

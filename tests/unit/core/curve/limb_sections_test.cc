@@ -26,6 +26,14 @@ TEST(LimbSections, OfATiltedPlaneThroughACylinderIsAnEllipseAboutItsAxis) {
   }
 }
 
+TEST(LimbSections, ThicknessIsATubesRadiusBesideADentToo) {
+  Mesh tube = make_cylinder(1, 8, 128);
+  EXPECT_NEAR(LimbSections(tube).thickness({0, 0, 4}, 4), 1, 0.03);
+  const Mesh with_dent = joined(tube, reversed(moved(make_sphere(0.1, 200), {0.5, 0, 4})));
+  EXPECT_NEAR(LimbSections(with_dent).thickness({0, 0, 4}, 4), 1, 0.03)
+      << "the distance to the surface is 0.4";
+}
+
 // The wedge between two planes through the axis of a torus has its centroid farther out than the circle.
 TEST(LimbSections, OfATorusIsADiscAboutItsCircle) {
   const Mesh torus = make_torus(3, 1, 20000);
