@@ -3,6 +3,6 @@
 namespace affskel::core {
 
 /// Changes whenever a field could differ in any bit from the last version's; part of every cache key.
-inline constexpr const char* kCoreVersion = "6";
+inline constexpr const char* kCoreVersion = "7";
 
 }  // namespace affskel::core

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,16 +14,31 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::size_t kNearest = 3;  // saddles nearest to x that are tried
+constexpr std::size_t kNearest = 6;  // saddles nearest to x that are tried: pockets between them are small
 constexpr std::size_t kMostSaddles = 2 * (NearPlaces::kMost + 1) + kNearest;
 // Sine of the angle between the known plane and those that touch any saddle.  Of so many triangles; with more it is
 // less, as there are more saddles, in proportion, and a piece takes longer, by the root.
 constexpr double kReach = 0.6, kReachTriangles = 700;
 // What the first piece of a plane may be, in known ones: of pairs, of those that touch any saddle, of near places'.
 constexpr double kPairFirst = 1, kReachFirst = 2, kNearFirst = 3;
-constexpr double kMostPromised = 1.01;  // what a near place's plane may promise, likewise
-constexpr double kLesser = 1e-7;        // by which a piece must be less to take the place of another
-constexpr double kPairPromise = 4, kNearPromise = 1;  // DescentBound::promise
+// What a near place's plane may promise, likewise; and what more of up to so many triangles, with more it is less by
+// the square, as a piece takes longer: one that touches two saddles, others.
+constexpr double kMostPromised = 1.01, kMoreOfPair = 0.09, kMoreOfOther = 0.04, kPromiseTriangles = 1000;
+// And more by so much, at most 1, times the fourth power of the change of E^(1/3) on the way, as a share: where that
+// is great, near the surface, a place's normal is of no use one step on, and neither is what it promises.
+constexpr double kBend = 0.1;
+// A near place's plane that promises so little, in known pieces, is followed to the end, whatever it cuts off at first.
+constexpr double kFarLess = 0.25;
+// 1 - cosine of planes that touch the same saddles and lead to one piece: of the known one. More of many triangles.
+constexpr double kOneBasin = 0.005, kMoreBasin = 0.015;
+constexpr double kLesser = 1e-7;  // by which a piece must be less to take the place of another
+constexpr double kPairPromise = 4, kNearPromise = 1, kBendPromise = 4;  // DescentBound::promise
+constexpr double kNone = std::numeric_limits<double>::infinity();       // as a bound
+
+double generosity(std::size_t triangles) {
+  const double share = kPromiseTriangles / std::max(kPromiseTriangles, static_cast<double>(triangles));
+  return share * share;
+}
 
 double reach(std::size_t triangles) {
   const double share = kReachTriangles / std::max(kReachTriangles, static_cast<double>(triangles));
@@ -36,6 +52,7 @@ class Look {
        ChordDescent& descent)
       : in_(input),
         x_(x),
+        generosity_(generosity(input.mesh.triangles.size())),
         known_(least[point]),
         best_(known_),
         near_(near),
@@ -46,9 +63,9 @@ class Look {
   }
 
   LeastChord run() {
+    try_planes();
     try_pairs();
     try_reach();
-    try_planes();
     return best_.erosion < known_.erosion ? descent_.look_across(x_, best_) : known_;
   }
 
@@ -130,7 +147,7 @@ class Look {
     LeastChord start;
     start.normal = (1 / size) * across;
     start.saddles = {std::min(a.of->vertex, b.of->vertex), std::max(a.of->vertex, b.of->vertex)};
-    if (start.saddles == best_.saddles && alike(start, best_)) return;
+    if ((start.saddles == best_.saddles && alike(start, best_)) || is_tried(start)) return;
     if (joins(a, start.normal) && joins(b, start.normal)) go_down(start, first, kPairPromise);
   }
 
@@ -143,19 +160,42 @@ class Look {
   }
 
   void try_plane_of(const LeastChord& offer, const Vec3& way) {
-    if (offer.kind() == 2) return;  // a pair
-    if (alike(offer, best_) && offer.saddles == best_.saddles) return;
-    if (promised(offer, -1 * way) > kMostPromised * best_.erosion) return;
-    for (std::size_t n = 0; n < tries_; ++n) {
-      if (tried_[n]->saddles == offer.saddles && alike(*tried_[n], offer)) return;
-    }
+    if (offer.saddles == best_.saddles &&
+        dot(offer.normal, best_.normal) > 1 - kOneBasin - kMoreBasin * (1 - generosity_))
+      return;
+    const double share = promised(offer, -1 * way) / best_.erosion;
+    if (share > most_promised(offer, way) || is_tried(offer)) return;
     tried_[tries_++] = &offer;
-    Vec3 d = offer.normal;
-    if (offer.kind() == 1) {
-      const Vec3 s = in_.mesh.points[offer.saddles[0]] - x_;
-      d = d - (dot(d, s) / dot(s, s)) * s;
+    if (share < kFarLess) {
+      go_down(offer, kNone, kNone);
+    } else if (!near_.holds_more(touching(offer), best_.erosion)) {
+      go_down(offer, kNearFirst, kNearPromise + kBendPromise * bend(way));
     }
-    if (!near_.holds_more(d, best_.erosion)) go_down(offer, kNearFirst, kNearPromise);
+  }
+
+  double most_promised(const LeastChord& offer, const Vec3& way) const {
+    return kMostPromised + generosity_ * (offer.kind() == 2 ? kMoreOfPair : kMoreOfOther) + bend(way);
+  }
+
+  double bend(const Vec3& way) const {
+    const double change = norm(way) * known_.slope / (3 * known_.erosion), square = change * change;
+    return generosity_ * std::min(1.0, kBend * square * square);
+  }
+
+  bool is_tried(const LeastChord& start) const {
+    return std::any_of(tried_.begin(), tried_.begin() + tries_, [&](const LeastChord* tried) {
+      return tried->saddles == start.saddles && alike(*tried, start);
+    });
+  }
+
+  // A normal, of any length, of the plane nearest to a near place's that touches its saddles.
+  Vec3 touching(const LeastChord& offer) const {
+    const Vec3& d = offer.normal;
+    if (offer.kind() == 0) return d;
+    const Vec3 s = in_.mesh.points[offer.saddles[0]] - x_;
+    if (offer.kind() == 1) return d - (dot(d, s) / dot(s, s)) * s;
+    const Vec3 across = cross(s, in_.mesh.points[offer.saddles[1]] - x_);
+    return dot(across, d) < 0 ? -1 * across : across;
   }
 
   void go_down(const LeastChord& start, double first, double promise) {
@@ -166,6 +206,7 @@ class Look {
 
   const PieceInput& in_;
   const Vec3 x_;
+  const double generosity_;
   const LeastChord known_;
   LeastChord best_;
   const NearPlaces& near_;

@@ -12,11 +12,11 @@ namespace affskel::core {
 
 /// Looks for a lesser piece of a sample point x than the one that is known, in basins that a descent does not come to:
 /// those between two saddles, which are narrow.  It goes down
+///   - from the planes of near places, where these promise less, or not much more;
 ///   - from the planes that touch two of the saddles known near: those of near places' planes and the nearest ones;
-///   - from those that touch one of these and any other, as far as they are near the known plane;
-///   - from the planes of near places, where these promise less.
-/// Planes whose piece holds a near place of greater E are left out (NearPlaces), and so are those that may meet no
-/// parts at a saddle.
+///   - from those that touch one of these and any other, as far as they are near the known plane.
+/// Planes whose piece holds a near place of greater E are left out (NearPlaces), unless they are a near place's and
+/// promise far less, and so are pairs that may meet no parts at a saddle.
 ///
 /// @param point x's number, of `least`: what is known.
 /// @param is_news tells of a point whether the last round changed it: only what that makes new is tried.
