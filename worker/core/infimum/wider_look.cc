@@ -33,7 +33,7 @@ constexpr double kFarLess = 0.25;
 constexpr double kOneBasin = 0.005, kMoreBasin = 0.015;
 constexpr double kLesser = 1e-7;  // by which a piece must be less to take the place of another
 constexpr double kPairPromise = 4, kNearPromise = 1, kBendPromise = 4;  // DescentBound::promise
-constexpr double kNone = std::numeric_limits<double>::infinity();       // as a bound
+constexpr double kAnyPiece = std::numeric_limits<double>::infinity();   // as a bound
 
 double generosity(std::size_t triangles) {
   const double share = kPromiseTriangles / std::max(kPromiseTriangles, static_cast<double>(triangles));
@@ -167,7 +167,7 @@ class Look {
     if (share > most_promised(offer, way) || is_tried(offer)) return;
     tried_[tries_++] = &offer;
     if (share < kFarLess) {
-      go_down(offer, kNone, kNone);
+      go_down(offer, kAnyPiece, kAnyPiece);
     } else if (!near_.holds_more(touching(offer), best_.erosion)) {
       go_down(offer, kNearFirst, kNearPromise + kBendPromise * bend(way));
     }
