@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/base/error.h"
+#include "core/base/unit.h"
 #include "core/chords/chord_fields.h"
 #include "core/ridge/smoothed_derivatives.h"
 #include "core/shapes/shapes.h"
@@ -16,10 +17,6 @@
 
 namespace affskel::core {
 namespace {
-
-Vec3 unit(const Vec3& v) {
-  return (1 / norm(v)) * v;
-}
 
 // E = 100 + slope w - steep q^2 - flat r^2 in the coordinates (q, r, w) about a line.
 struct Limb {
