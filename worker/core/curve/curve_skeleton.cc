@@ -253,8 +253,8 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 
-// Than a surface has handles that crosses itself by noise.  Where surfaces pass through each other, what they bound together
-// may have tunnels that none has.
+// How many loops the lines have more than the surface has handles, where noise makes it cross itself.  Where several surfaces
+// pass through each other, what they bound together may have tunnels that none has.
 std::uint64_t tunnels_of_noise(const Solid& solid, const SheetLines& lines) {
   if (!solid.self_intersecting || solid.shells.size() > 1) return 0;
   DisjointSets pieces(lines.vertices.size());

@@ -43,7 +43,7 @@ class Pruning {
     }
     eat();
     eat_spurs();
-    return drawn();
+    return left_of(lines_, segments_);
   }
 
  private:
@@ -187,24 +187,6 @@ class Pruning {
     return leaves != line.rend() &&
            from_root(line.front()) - ball(root) >= options_.least_reach * ball(*leaves) &&
            beyond_others(line) >= kSpur;
-  }
-
-  SheetLines drawn() const {
-    SheetLines result;
-    result.opened = lines_.opened;
-    std::vector<char> was(lines_.vertices.size(), 0), is(was);
-    for (const Segment& s : lines_.segments)
-      for (const std::uint32_t v : s) was[v] = 1;
-    for (const Segment& s : segments_)
-      for (const std::uint32_t v : s) is[v] = 1;
-    std::vector<std::uint32_t> number(was.size(), 0);
-    for (std::uint32_t v = 0; v < was.size(); ++v) {
-      if (was[v] && !is[v]) continue;
-      number[v] = static_cast<std::uint32_t>(result.vertices.size());
-      result.vertices.push_back(lines_.vertices[v]);
-    }
-    for (const auto& [a, b] : segments_) result.segments.push_back({number[a], number[b]});
-    return result;
   }
 
   const SheetLines& lines_;

@@ -335,4 +335,22 @@ SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends, Execu
   return Collapse(sheet, ends, context).run();
 }
 
+SheetLines left_of(const SheetLines& lines, std::span<const Segment> segments) {
+  SheetLines left;
+  left.opened = lines.opened;
+  std::vector<char> had(lines.vertices.size(), 0), has(had);
+  for (const Segment& s : lines.segments)
+    for (const std::uint32_t v : s) had[v] = 1;
+  for (const Segment& s : segments)
+    for (const std::uint32_t v : s) has[v] = 1;
+  std::vector<std::uint32_t> number(had.size(), 0);
+  for (std::uint32_t v = 0; v < had.size(); ++v) {
+    if (had[v] && !has[v]) continue;
+    number[v] = static_cast<std::uint32_t>(left.vertices.size());
+    left.vertices.push_back(lines.vertices[v]);
+  }
+  for (const auto& [a, b] : segments) left.segments.push_back({number[a], number[b]});
+  return left;
+}
+
 }  // namespace affskel::core

@@ -29,4 +29,7 @@ struct SheetLines {
 SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends,
                        ExecutionContext* context = nullptr);
 
+/// What is left of lines: these segments between their vertices, without the vertices that had some and have none any more.
+SheetLines left_of(const SheetLines& lines, std::span<const Segment> segments);
+
 }  // namespace affskel::core

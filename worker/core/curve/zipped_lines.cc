@@ -60,7 +60,7 @@ class Zip {
       if (found.length == 0) break;
       slide(found);
     }
-    return drawn();
+    return left_of(lines_, segments());
   }
 
  private:
@@ -180,25 +180,6 @@ class Zip {
       const Line line = taken(at_[v].front().line);
       v = line.front() == v ? line.back() : line.front();
     }
-  }
-
-  SheetLines drawn() const {
-    SheetLines result;
-    result.opened = lines_.opened;
-    std::vector<std::uint32_t> number(lines_.vertices.size(), 0);
-    std::vector<char> was_alone(number.size(), 1), is_left(number.size(), 0);
-    for (const Segment& segment : lines_.segments)
-      for (const std::uint32_t v : segment) was_alone[v] = 0;
-    const std::vector<Segment> left = segments();
-    for (const Segment& segment : left)
-      for (const std::uint32_t v : segment) is_left[v] = 1;
-    for (std::uint32_t v = 0; v < number.size(); ++v) {
-      if (!is_left[v] && !was_alone[v]) continue;
-      number[v] = static_cast<std::uint32_t>(result.vertices.size());
-      result.vertices.push_back(lines_.vertices[v]);
-    }
-    for (const auto& [a, b] : left) result.segments.push_back({number[a], number[b]});
-    return result;
   }
 
   const SheetLines& lines_;
