@@ -104,7 +104,8 @@ def check_grid(job, extension):
     rows = numpy.loadtxt(job.path("field.csv"), delimiter=",", skiprows=1)
     found = numpy.column_stack([places(data)[inside == 1], erosion[inside == 1]])
     rows, found = (table[numpy.lexsort(numpy.round(table[:, 2::-1] / job.spacing, 3).T)] for table in (rows[:, :4], found))
-    assert numpy.allclose(rows[:, :3], found[:, :3], rtol=0, atol=1e-9 * job.spacing), "places"
+    within = {"vti": 1e-9, "vts": 1e-3}[extension]  # steps: structured grids may list their places in single precision
+    assert numpy.allclose(rows[:, :3], found[:, :3], rtol=0, atol=within * job.spacing), "places"
     assert numpy.array_equal(rows[:, 3], found[:, 3]), "E"
     return data
 
