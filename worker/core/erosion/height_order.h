@@ -9,11 +9,13 @@ namespace affskel::core {
 
 /// Sorts the vertices of a mesh by height d.y, direction after direction.
 ///
-/// Heights are rounded to multiples of 2^-44 (coordinates are at most 1/2), so that the vertices of a level
+/// Heights are rounded to multiples of kUnit (coordinates are at most 1/2), so that the vertices of a level
 /// face tie although their products round differently.  Ties are broken by height along a fixed tilt, then by
 /// index: so a level face has one lowest vertex, and no false minima.
 class HeightOrder {
  public:
+  static constexpr double kUnit = 0x1p-44;
+
   explicit HeightOrder(const std::vector<Vec3>& points);
 
   /// Fills order and height for unit vector d.  O(V).

@@ -253,6 +253,9 @@ class JoinTreeBuilder::Work {
     }
   }
 
+  // Where a lattice row passes through v, one leg's points come before it and the other's behind it, all at its
+  // height.  Joined too late, a point would get the leg that the row comes from in place of its own, and no
+  // other direction would put it right.
   std::uint32_t join_meeting(std::uint32_t r) {
     std::sort(meeting_.begin(), meeting_.end());
     meeting_.erase(std::unique(meeting_.begin(), meeting_.end()), meeting_.end());
@@ -260,7 +263,7 @@ class JoinTreeBuilder::Work {
     topology_.children.insert(topology_.children.end(), meeting_.begin(), meeting_.end());
     const std::uint32_t arc = new_arc(r, topology_.arc_solid[meeting_[0]]);
     for (std::uint32_t child : meeting_) {
-      tree_.arcs[child].top = heights_.height()[r];
+      tree_.arcs[child].top = heights_.height()[r] - HeightOrder::kUnit;
       tree_.arcs[child].parent = arc;
       topology_.current[child] = arc;
     }

@@ -29,7 +29,8 @@ struct Cubic {
 };
 
 /// An arc of the tree: one component from the height where it is born, or where others merge into it, up to
-/// `top`, where it merges into `parent`.
+/// `top`, where it merges into `parent`.  A top is lower than its vertex by HeightOrder::kUnit: at the vertex
+/// itself, whichever way its height was rounded, a point lies in the parent.
 struct Arc {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   double top = 0;                 ///< +infinity for a root
