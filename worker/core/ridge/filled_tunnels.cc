@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/base/matrix3.h"
 #include "core/collapse/collapsing.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
@@ -38,6 +42,14 @@ CellSet collapsed_again(const DualComplex& complex, const CellSet& cells, std::s
   return collapsing.cells();
 }
 
+// Of vertices in ascending order, spacings.
+std::vector<Vec3> places_of_vertices(const Lattice& lattice, const std::vector<Cell>& vertices) {
+  std::vector<Vec3> places;
+  for (const auto& [i, j, k] : cells_of_vertices(lattice, vertices))
+    places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+  return places;
+}
+
 // A closed way along edges of the complex, or a sum of such ways modulo 2.
 struct Cycle {
   std::vector<Cell> edges;   // ascending
@@ -58,6 +70,7 @@ class Tunnels {
   Tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
           std::span<const float> radius)
       : lattice_(lattice), complex_(complex), radius_(radius) {
+    if (solid.self_intersecting) return;  // they tell nothing of its outside
     for (const auto& loop : surface_loops(solid.mesh)) {
       auto& places = of_surface_.emplace_back();
       for (const std::uint32_t v : loop) places.push_back(solid.mesh.points[v]);
@@ -169,6 +182,32 @@ class Tunnels {
   std::vector<std::vector<Vec3>> of_surface_;
 };
 
+// Per sample point the radius of a disc as large as the optimal section, spacings: how thick the limb is there,
+// whatever noise has made of its surface.
+std::vector<float> discs(const Lattice& lattice, const FrameField& field) {
+  const Matrix3 to_mesh = inverse_transposed(frame_matrix(lattice));
+  std::vector<float> radius;
+  radius.reserve(field.gradient.size());
+  for (const Vec3& gradient : field.gradient)
+    radius.push_back(
+        static_cast<float>(std::sqrt(section_area(to_mesh, gradient) / std::numbers::pi) / field.spacing));
+  return radius;
+}
+
+// Whether a loop is one round a tunnel that noise has bored through a limb.
+bool is_bored(const Lattice& lattice, const DualComplex& complex, std::span<const float> thickness,
+              std::vector<Cell> loop) {
+  std::sort(loop.begin(), loop.end());
+  const std::vector<Vec3> places = places_of_vertices(lattice, loop);
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const double reach = kOfNoise * radius_about(complex, thickness, loop[n]);
+    if (std::all_of(places.begin(), places.end(),
+                    [&](const Vec3& p) { return norm(p - places[n]) <= reach; }))
+      return true;
+  }
+  return false;
+}
+
 // The lines that opened loops leave: from their open ends to what stays without them.
 class OpenLines {
  public:
@@ -208,17 +247,14 @@ class OpenLines {
     return line;
   }
 
-  // Spacings.
   std::vector<Vec3> places_of(const std::vector<Cell>& line) const {
     std::vector<Cell> sorted = line;
     std::sort(sorted.begin(), sorted.end());
-    const std::vector<CellPlace> cells = cells_of_vertices(lattice_, sorted);
+    const std::vector<Vec3> known = places_of_vertices(lattice_, sorted);
     std::vector<Vec3> places;
-    for (const Cell vertex : line) {
-      const auto& [i, j, k] = cells[static_cast<std::size_t>(
-          std::lower_bound(sorted.begin(), sorted.end(), vertex) - sorted.begin())];
-      places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-    }
+    for (const Cell vertex : line)
+      places.push_back(known[static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), vertex) -
+                                                      sorted.begin())]);
     return places;
   }
 
@@ -230,26 +266,73 @@ class OpenLines {
   std::span<const float> radius_;
 };
 
+bool is_square(Cell cell) {
+  return DualComplex::dimension(cell) == 2;
+}
+
+// Opens membranes about voids, each at the square nearest to the surface that is no anchor.
+// @param graph what is left, collapsed as far as it can be: its squares are those of membranes.
+std::uint32_t open_voids(const DualComplex& complex, std::span<const float> radius, const CellSet& anchored,
+                         CellSet& left, CellSet& graph, ExecutionContext* context) {
+  for (std::uint32_t opened = 0;; ++opened) {
+    std::optional<Cell> weakest;
+    graph.for_each([&](Cell cell) {
+      if (!is_square(cell) || anchored.has(cell)) return;
+      if (!weakest || radius_about(complex, radius, cell) < radius_about(complex, radius, *weakest))
+        weakest = cell;
+    });
+    if (!weakest) return opened;
+    left.erase(*weakest);
+    graph.erase(*weakest);
+    graph = collapsed_again(complex, graph, {}, context);
+  }
+}
+
+// Of as many loops as a noisy solid has too many the bored ones.
+std::vector<Cycle> bored_tunnels(const Solid& solid, const Lattice& lattice, std::span<const float> thickness,
+                                 const DualComplex& complex, const Tunnels& tunnels, const CellSet& graph,
+                                 ExecutionContext* context) {
+  const auto loops = shortest_loops(complex, graph, kMostOfNoise + 1, context);
+  const std::size_t handles = betti_numbers(solid).holes;
+  std::vector<Cycle> cycles;
+  if (loops.size() > kMostOfNoise) return cycles;
+  for (std::size_t n = 0; n + handles < loops.size(); ++n)
+    if (is_bored(lattice, complex, thickness, loops[n])) cycles.push_back(tunnels.cycle_of(loops[n], graph));
+  return cycles;
+}
+
+// The tunnels that a clean solid lacks, by loops round them.
+std::vector<Cycle> tunnels_of_webs(const Solid& solid, const DualComplex& complex, const Tunnels& tunnels,
+                                   const CellSet& graph, ExecutionContext* context) {
+  const auto loops = shortest_loops(complex, graph, kMostTunnels + 1, context);
+  std::vector<Cycle> cycles;
+  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return cycles;
+  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
+  return Tunnels::bounding(std::move(cycles));
+}
+
 }  // namespace
 
-FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
-                           std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
-                           const FillOptions& options) {
+FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const FrameField& field,
+                           const DualComplex& complex, std::span<const Anchor> anchors,
+                           std::span<const float> radius, CellSet& left, const FillOptions& options) {
   ExecutionContext* const context = options.context;
-  if (solid.self_intersecting) return {};
-  const CellSet graph = collapsed_again(complex, left, {}, context);
-  bool encloses = false;
-  graph.for_each([&](Cell cell) { encloses = encloses || DualComplex::dimension(cell) > 1; });
-  if (encloses) return {};
-  const auto loops = shortest_loops(complex, graph, kMostTunnels + 1, context);
-  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return {};
-  const Tunnels tunnels(solid, lattice, complex, radius);
-  std::vector<Cycle> cycles;
-  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
-  cycles = Tunnels::bounding(std::move(cycles));
+  const bool noisy = solid.self_intersecting;
+  if (noisy && solid.shells.size() > 1) return {};
   CellSet anchored(complex);
   for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
+  CellSet graph = collapsed_again(complex, left, {}, context);
   FilledTunnels filled;
+  if (noisy) filled.voids = open_voids(complex, radius, anchored, left, graph, context);
+  bool encloses = false;
+  graph.for_each([&](Cell cell) { encloses = encloses || is_square(cell); });
+  const std::vector<float> thickness =
+      noisy ? discs(lattice, field) : std::vector<float>(radius.begin(), radius.end());
+  const Tunnels tunnels(solid, lattice, complex, radius);
+  std::vector<Cycle> cycles;
+  if (!encloses)
+    cycles = noisy ? bored_tunnels(solid, lattice, thickness, complex, tunnels, graph, context)
+                   : tunnels_of_webs(solid, complex, tunnels, graph, context);
   std::vector<Cell> ends;
   for (std::size_t n = 0; n < cycles.size(); ++n) {
     throw_if_stopped(context);
@@ -261,9 +344,9 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
     for (std::size_t other = n + 1; other < cycles.size(); ++other)
       if (cycles[other].has(edge)) cycles[other].add(cycles[n]);
   }
-  if (filled.number == 0) return filled;
+  if (filled.number + filled.voids == 0) return filled;
   const CellSet rest = collapsed_again(complex, left, anchors, context);
-  const OpenLines lines(lattice, complex, left, rest, radius);
+  const OpenLines lines(lattice, complex, left, rest, thickness);
   std::vector<Anchor> stay(anchors.begin(), anchors.end());
   for (const Cell end : ends) {
     const LimbTip tip = lines.tip_at(end);

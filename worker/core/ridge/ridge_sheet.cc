@@ -178,10 +178,11 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   drop(basis.complex, chosen.left_out, left.cells);
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
-  if (basis.topology.holes > 0) {
-    sheet.filled = fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
-                                {.limb_reach = constants.limb_reach, .context = options.context});
+  if (basis.topology.holes + basis.topology.cavities > 0) {
+    sheet.filled = fill_tunnels(solid, lattice, field, basis.complex, chosen.anchors, basis.radius,
+                                left.cells, {.limb_reach = constants.limb_reach, .context = options.context});
     sheet.lattice.holes -= sheet.filled.number;
+    sheet.lattice.cavities -= sheet.filled.voids;
   }
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
