@@ -35,8 +35,8 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
                                  std::span<const float> cost, ExecutionContext* context = nullptr);
 
 /// Whether such a way of cost 1 everywhere, no longer than `longest` spacings, leads from a cube about a cell to one
-/// that is wanted (Dijkstra 1959).  Looks at no more than lies within.
-/// @param wanted per cube: not 0.
-bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest, std::span<const char> wanted);
+/// whose reach is no less than its length (Dijkstra 1959).  Looks at no more than lies within.
+/// @param reach per cube, spacings; negative: none.
+bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest, std::span<const float> reach);
 
 }  // namespace affskel::core

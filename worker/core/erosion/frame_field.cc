@@ -1,6 +1,7 @@
 #include "core/erosion/frame_field.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/base/cube_root.h"
 #include "core/base/unit.h"
@@ -29,6 +30,14 @@ DirectionSet frame_directions(const Lattice& lattice, const DirectionSet& direct
 
 double section_area(const Matrix3& to_mesh, const Vec3& gradient) {
   return std::ldexp(norm(to_mesh * scaled_to_unit(gradient)), largest_exponent(gradient));
+}
+
+std::vector<float> section_radii(const FrameField& field) {
+  std::vector<float> radii;
+  radii.reserve(field.gradient.size());
+  for (const Vec3& gradient : field.gradient)
+    radii.push_back(static_cast<float>(std::sqrt(norm(gradient) / std::numbers::pi) / field.spacing));
+  return radii;
 }
 
 FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,

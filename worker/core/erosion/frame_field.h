@@ -34,6 +34,10 @@ struct FrameField {
 /// @param gradient g = grad_u E, of any size.
 double section_area(const Matrix3& to_mesh, const Vec3& gradient);
 
+/// Per sample point the radius of a disc as large as the optimal section in the frame, spacings: how thick a limb is
+/// there, whatever noise has made of its surface.
+std::vector<float> section_radii(const FrameField& field);
+
 /// @param values E (mesh units cubed), area (mesh units squared) and direction per sample point; a point
 ///   without a direction gets E = +infinity and gradient 0.
 FrameField frame_field(const Lattice& lattice, const DirectionSet& directions,

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "core/base/matrix3.h"
 #include "core/collapse/collapsing.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
@@ -182,18 +179,6 @@ class Tunnels {
   std::vector<std::vector<Vec3>> of_surface_;
 };
 
-// Per sample point the radius of a disc as large as the optimal section, spacings: how thick the limb is there,
-// whatever noise has made of its surface.
-std::vector<float> discs(const Lattice& lattice, const FrameField& field) {
-  const Matrix3 to_mesh = inverse_transposed(frame_matrix(lattice));
-  std::vector<float> radius;
-  radius.reserve(field.gradient.size());
-  for (const Vec3& gradient : field.gradient)
-    radius.push_back(
-        static_cast<float>(std::sqrt(section_area(to_mesh, gradient) / std::numbers::pi) / field.spacing));
-  return radius;
-}
-
 // Whether a loop is one round a tunnel that noise has bored through a limb.
 bool is_bored(const Lattice& lattice, const DualComplex& complex, std::span<const float> thickness,
               std::vector<Cell> loop) {
@@ -289,9 +274,9 @@ std::uint32_t open_voids(const DualComplex& complex, std::span<const float> radi
 }
 
 // Of as many loops as a noisy solid has too many the bored ones.
-std::vector<Cycle> bored_tunnels(const Solid& solid, const Lattice& lattice, std::span<const float> thickness,
-                                 const DualComplex& complex, const Tunnels& tunnels, const CellSet& graph,
-                                 ExecutionContext* context) {
+std::vector<Cycle> bored_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
+                                 std::span<const float> thickness, const Tunnels& tunnels,
+                                 const CellSet& graph, ExecutionContext* context) {
   const auto loops = shortest_loops(complex, graph, kMostOfNoise + 1, context);
   const std::size_t handles = betti_numbers(solid).holes;
   std::vector<Cycle> cycles;
@@ -313,10 +298,11 @@ std::vector<Cycle> tunnels_of_webs(const Solid& solid, const DualComplex& comple
 
 }  // namespace
 
-FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                           const DualComplex& complex, std::span<const Anchor> anchors,
-                           std::span<const float> radius, CellSet& left, const FillOptions& options) {
+FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
+                           std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
+                           const FillOptions& options) {
   ExecutionContext* const context = options.context;
+  const std::span<const float> thickness = options.thickness;
   const bool noisy = solid.self_intersecting;
   if (noisy && solid.shells.size() > 1) return {};
   CellSet anchored(complex);
@@ -326,12 +312,10 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Fra
   if (noisy) filled.voids = open_voids(complex, radius, anchored, left, graph, context);
   bool encloses = false;
   graph.for_each([&](Cell cell) { encloses = encloses || is_square(cell); });
-  const std::vector<float> thickness =
-      noisy ? discs(lattice, field) : std::vector<float>(radius.begin(), radius.end());
   const Tunnels tunnels(solid, lattice, complex, radius);
   std::vector<Cycle> cycles;
   if (!encloses)
-    cycles = noisy ? bored_tunnels(solid, lattice, thickness, complex, tunnels, graph, context)
+    cycles = noisy ? bored_tunnels(solid, lattice, complex, thickness, tunnels, graph, context)
                    : tunnels_of_webs(solid, complex, tunnels, graph, context);
   std::vector<Cell> ends;
   for (std::size_t n = 0; n < cycles.size(); ++n) {
@@ -346,7 +330,7 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Fra
   }
   if (filled.number + filled.voids == 0) return filled;
   const CellSet rest = collapsed_again(complex, left, anchors, context);
-  const OpenLines lines(lattice, complex, left, rest, thickness);
+  const OpenLines lines(lattice, complex, left, rest, noisy ? thickness : radius);
   std::vector<Anchor> stay(anchors.begin(), anchors.end());
   for (const Cell end : ends) {
     const LimbTip tip = lines.tip_at(end);

@@ -8,7 +8,6 @@
 #include "core/collapse/collapse.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
-#include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/solid/solid.h"
@@ -17,6 +16,7 @@ namespace affskel::core {
 
 struct FillOptions {
   double limb_reach = RidgeConstants{}.limb_reach;
+  std::span<const float> thickness;  ///< per sample point where the surface crosses itself: section_radii()
   ExecutionContext* context = nullptr;
 };
 
@@ -36,20 +36,19 @@ struct FilledTunnels {
 ///
 /// Noise that makes a surface cross itself bores tunnels through limbs, and its loops are not those of the outside.
 /// There the shortest loops of the complex count, as many as it has more than the surface has handles, as far as each
-/// lies within kOfNoise times a disc as large as the optimal section at one of its places: a tunnel of a limb's, not one
+/// lies within kOfNoise times the limb's thickness at one of its places: a tunnel of a limb's, not one
 /// between limbs that pass through each other.  What encloses a void there is opened before.
 ///
 /// Nothing is filled where several surfaces cross, where what is left encloses voids
 /// all the same, and where there are more than
 /// kMostTunnels of the complex, or kMostOfNoise.
-/// @param field of the lattice.
 /// @param radius per sample point: distance to the surface.
 /// @param left of the collapse.
 /// A function of its arguments alone.
 /// @throws CoreError kCancelled when the context asks to stop.
-FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                           const DualComplex& complex, std::span<const Anchor> anchors,
-                           std::span<const float> radius, CellSet& left, const FillOptions& options = {});
+FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
+                           std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
+                           const FillOptions& options = {});
 
 inline constexpr std::size_t kMostTunnels = 64;  ///< with more the lattice resolves no solid at all
 inline constexpr std::size_t kMostOfNoise = 512;

@@ -17,6 +17,7 @@
 #include "core/mesh/box.h"
 #include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
+#include "core/ridge/noisy_limbs.h"
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"
 #include "core/ridge/ridge_curves.h"
@@ -161,6 +162,9 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
   std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
+  const std::vector<float> thickness = solid.self_intersecting ? section_radii(field) : std::vector<float>{};
+  const std::vector<char> noisy =
+      noisy_limbs(solid, walls, lattice, basis.complex, basis.radius, basis.limbs);
   const RidgeEvidence evidence{.complex = basis.complex,
                                .parts = parts,
                                .field = field,
@@ -169,7 +173,9 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .vertices = surface.vertices,
                                .curves = found.curves,
                                .limbs = basis.limbs,
-                               .radius = basis.radius};
+                               .radius = basis.radius,
+                               .noisy = noisy,
+                               .thickness = thickness};
   const RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
   Collapsed left = collapse(basis.complex, chosen.anchors,
                             {.cost = costs_of_ways(field, basis.radius), .context = options.context});
@@ -179,8 +185,9 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
   if (basis.topology.holes + basis.topology.cavities > 0) {
-    sheet.filled = fill_tunnels(solid, lattice, field, basis.complex, chosen.anchors, basis.radius,
-                                left.cells, {.limb_reach = constants.limb_reach, .context = options.context});
+    sheet.filled = fill_tunnels(
+        solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
+        {.limb_reach = constants.limb_reach, .thickness = thickness, .context = options.context});
     sheet.lattice.holes -= sheet.filled.number;
     sheet.lattice.cavities -= sheet.filled.voids;
   }
