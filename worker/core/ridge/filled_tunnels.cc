@@ -4,11 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <optional>
+#include <map>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/collapse/collapsing.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
@@ -255,22 +256,51 @@ bool is_square(Cell cell) {
   return DualComplex::dimension(cell) == 2;
 }
 
-// Opens membranes about voids, each at the square nearest to the surface that is no anchor.
+// Of the squares of each membrane the one nearest to the surface that is no anchor.
+// @param squares of membranes: those of one share edges.
+std::vector<Cell> weakest_squares(const DualComplex& complex, std::span<const float> radius,
+                                  const CellSet& anchored, const std::vector<Cell>& squares) {
+  DisjointSets membranes(squares.size());
+  std::unordered_map<Cell, std::uint32_t> beside;  // per edge: a square
+  for (std::uint32_t n = 0; n < squares.size(); ++n) {
+    complex.for_each_face(squares[n], [&](Cell edge) {
+      const auto [known, fresh] = beside.try_emplace(edge, n);
+      if (!fresh) membranes.unite(n, known->second);
+    });
+  }
+  std::map<std::uint32_t, std::pair<double, Cell>> weakest;  // by membrane
+  for (std::uint32_t n = 0; n < squares.size(); ++n) {
+    if (anchored.has(squares[n])) continue;
+    const std::pair here(radius_about(complex, radius, squares[n]), squares[n]);
+    const auto [known, fresh] = weakest.try_emplace(membranes.find(n), here);
+    if (!fresh) known->second = std::min(known->second, here);
+  }
+  std::vector<Cell> result;
+  for (const auto& [membrane, square] : weakest) result.push_back(square.second);
+  return result;
+}
+
+// Opens membranes about so many voids.
 // @param graph what is left, collapsed as far as it can be: its squares are those of membranes.
 std::uint32_t open_voids(const DualComplex& complex, std::span<const float> radius, const CellSet& anchored,
-                         CellSet& left, CellSet& graph, ExecutionContext* context) {
-  for (std::uint32_t opened = 0;; ++opened) {
-    std::optional<Cell> weakest;
+                         std::uint64_t voids, CellSet& left, CellSet& graph, ExecutionContext* context) {
+  std::uint32_t opened = 0;
+  while (opened < voids) {
+    std::vector<Cell> squares;
     graph.for_each([&](Cell cell) {
-      if (!is_square(cell) || anchored.has(cell)) return;
-      if (!weakest || radius_about(complex, radius, cell) < radius_about(complex, radius, *weakest))
-        weakest = cell;
+      if (is_square(cell)) squares.push_back(cell);
     });
-    if (!weakest) return opened;
-    left.erase(*weakest);
-    graph.erase(*weakest);
+    const std::vector<Cell> weakest = weakest_squares(complex, radius, anchored, squares);
+    if (weakest.empty()) break;
+    for (const Cell square : weakest) {
+      if (opened == voids) break;
+      left.erase(square);
+      graph.erase(square);
+      ++opened;
+    }
     graph = collapsed_again(complex, graph, {}, context);
   }
+  return opened;
 }
 
 // Of as many loops as a noisy solid has too many the bored ones.
@@ -309,7 +339,7 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
   for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
   CellSet graph = collapsed_again(complex, left, {}, context);
   FilledTunnels filled;
-  if (noisy) filled.voids = open_voids(complex, radius, anchored, left, graph, context);
+  if (noisy) filled.voids = open_voids(complex, radius, anchored, options.voids, left, graph, context);
   bool encloses = false;
   graph.for_each([&](Cell cell) { encloses = encloses || is_square(cell); });
   const Tunnels tunnels(solid, lattice, complex, radius);

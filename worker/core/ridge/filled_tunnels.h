@@ -16,6 +16,7 @@ namespace affskel::core {
 
 struct FillOptions {
   double limb_reach = RidgeConstants{}.limb_reach;
+  std::uint64_t voids = 0;           ///< of the complex
   std::span<const float> thickness;  ///< per sample point where the surface crosses itself: section_radii()
   ExecutionContext* context = nullptr;
 };

@@ -40,7 +40,7 @@ Filled filled(const Mesh& mesh, double spacing, float thickness = 0) {
   result.complex = betti_numbers(complex);
   const std::vector<float> limbs(complex.cubes(), thickness);
   result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left,
-                               {.thickness = limbs, .context = nullptr})
+                               {.thickness = limbs})
                       .number;
   const CellMesh cells = mesh_of_cells(complex, left);
   result.skeleton = sheet_topology(cells.mesh, cells.segments).betti;
