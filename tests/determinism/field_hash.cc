@@ -86,7 +86,7 @@ std::uint64_t chords_hash(const affskel::core::Solid& solid, const affskel::core
 std::uint64_t ridge_hash(const affskel::core::Solid& solid, const affskel::core::Lattice& lattice,
                          const affskel::core::FrameField& field, unsigned threads) {
   using namespace affskel::core;
-  const RidgeBasis basis = ridge_basis(lattice, field, threads);
+  const RidgeBasis basis = ridge_basis(solid, lattice, field, threads);
   RidgeSheetOptions options;
   options.basis = &basis;
   Hash hash;

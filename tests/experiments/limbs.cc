@@ -23,7 +23,7 @@ constexpr double kPoints = 100'000, kNoise = 0.003;
 CurveSkeleton curve_of(const Job& job) {
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
   const core::Stopwatch clock;
-  const core::RidgeBasis basis = core::ridge_basis(job.lattice, field);
+  const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
   core::RidgeSheetOptions options;
   options.basis = &basis;
   const core::RidgeSheet ridge = core::ridge_sheet(job.solid, job.lattice, field, options);

@@ -172,7 +172,7 @@ RC_GTEST_PROP(SkeletonProperties, TopologyIsTheSolids, ()) {
   constexpr double kSpacing = 0.1;
   const core::ErodedSolid eroded = eroded_of(draw_resolved(kSpacing), kSpacing);
   const Topology solid = topology(core::betti_numbers(eroded.solid));
-  const core::RidgeBasis basis = core::ridge_basis(eroded.lattice, eroded.field);
+  const core::RidgeBasis basis = core::ridge_basis(eroded.solid, eroded.lattice, eroded.field);
   // Offsets of blends are no distances: one tunnel in some thousands is narrower than they say.
   RC_PRE(topology(basis.topology) == solid);
   const core::RidgeSheet ridge = ridge_of(eroded, basis);
@@ -184,7 +184,7 @@ RC_GTEST_PROP(SkeletonProperties, TopologyIsTheSolids, ()) {
 // On lattices too coarse for the solid, too.
 RC_GTEST_PROP(SkeletonProperties, RidgeHasTheTopologyOfTheLattice, ()) {
   const core::ErodedSolid eroded = eroded_of(mesh_of(draw_union(), 0), 0.2);
-  const core::RidgeBasis basis = core::ridge_basis(eroded.lattice, eroded.field);
+  const core::RidgeBasis basis = core::ridge_basis(eroded.solid, eroded.lattice, eroded.field);
   const core::RidgeSheet ridge = ridge_of(eroded, basis);
   Topology expected = topology(basis.topology);
   expected[0] -= ridge.fragments;

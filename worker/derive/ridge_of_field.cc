@@ -9,7 +9,8 @@ namespace affskel::worker {
 
 RidgeOfField::RidgeOfField(const FinishedField& field)
     : field_(field),
-      basis_(core::ridge_basis(field.lattice(), field.in_frame(), field.threads(), field.context())) {}
+      basis_(core::ridge_basis(field.solid(), field.lattice(), field.in_frame(), field.threads(),
+                               field.context())) {}
 
 core::RidgeSheet RidgeOfField::sheet(double threshold) const {
   core::RidgeSheetOptions options;

@@ -60,6 +60,14 @@ void give_up(const DualComplex& complex, std::span<const Cell> own, Cell square,
   complex.for_each_face(square, [&](Cell edge) { complex.for_each_face(edge, release); });
 }
 
+// What is free goes, in any order.
+struct AnyOrder {
+  static double time(Cell, double) { return 0; }
+  static double level(Cell) { return 0; }
+  static void removed(Cell, Cell, double) {}
+  static void bared(Cell, double) {}
+};
+
 }  // namespace
 
 Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors, CollapseOptions options) {
@@ -93,6 +101,16 @@ Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors, 
     }
   }
   return {collapsing.cells(), opened};
+}
+
+CellSet collapsed(const DualComplex& complex, const CellSet& cells, std::span<const Anchor> anchors,
+                  ExecutionContext* context) {
+  Collapsing collapsing(complex, cells, context);
+  for (const Anchor& anchor : anchors)
+    if (cells.has(anchor.cell)) collapsing.fix(anchor.cell);
+  AnyOrder order;
+  collapsing.run(order);
+  return collapsing.cells();
 }
 
 std::uint64_t count_components(const DualComplex& complex, const CellSet& cells) {

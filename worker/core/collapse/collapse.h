@@ -34,6 +34,13 @@ struct Collapsed {
 /// @throws CoreError kCancelled when the context asks to stop.
 Collapsed collapse(const DualComplex& complex, std::span<const Anchor> anchors, CollapseOptions options = {});
 
+/// Collapses what is left of a complex as far as it goes, in any order.
+/// @param cells closed under taking boundaries.
+/// @param anchors of these, those that are among the cells.
+/// @throws CoreError kCancelled when the context asks to stop.
+CellSet collapsed(const DualComplex& complex, const CellSet& cells, std::span<const Anchor> anchors,
+                  ExecutionContext* context = nullptr);
+
 /// The Betti numbers' first: how many components cells form that are closed under taking boundaries.
 std::uint64_t count_components(const DualComplex& complex, const CellSet& cells);
 

@@ -73,7 +73,7 @@ class Collapsing {
   ///   the least level(cell), so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
   ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was
-  ///   removed.
+  ///   removed.  May have next_cut(): after a wave a cell without cofaces that is taken out by itself, or nothing.
   template <class Rules>
   void run(Rules& rules) {
     for_each_name([&](Cell cell) { offer(cell, 0, rules); });
@@ -146,6 +146,7 @@ class Collapsing {
           lowest = std::min(lowest, std::pair(rules.level(last->second), last->second));
         remove(lowest.second, first->first, now, rules);
       }
+      if constexpr (requires { rules.next_cut(); }) take_cuts(now, rules);
     }
   }
 
@@ -153,14 +154,25 @@ class Collapsing {
   void remove(Cell cell, Cell coface, double now, Rules& rules) {
     state(cell) = state(coface) = 0;
     rules.removed(cell, coface, now);
-    const auto lost = [&](Cell face) {
-      if (((--state(face)) & ~kFixed) == kThere) rules.bared(face, now);
-      offer(face, now, rules);
-    };
     complex_.for_each_face(coface, [&](Cell face) {
-      if (face != cell) lost(face);
+      if (face != cell) lose_coface(face, now, rules);
     });
-    complex_.for_each_face(cell, lost);
+    complex_.for_each_face(cell, [&](Cell face) { lose_coface(face, now, rules); });
+  }
+
+  template <class Rules>
+  void take_cuts(double now, Rules& rules) {
+    while (const auto cut = rules.next_cut()) {
+      if (!has(*cut)) continue;
+      state(*cut) = 0;
+      complex_.for_each_face(*cut, [&](Cell face) { lose_coface(face, now, rules); });
+    }
+  }
+
+  template <class Rules>
+  void lose_coface(Cell cell, double now, Rules& rules) {
+    if (((--state(cell)) & ~kFixed) == kThere) rules.bared(cell, now);
+    offer(cell, now, rules);
   }
 
   const DualComplex& complex_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -28,12 +30,13 @@ constexpr double kBegun = 0.5;
 class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-           double least_reach)
+           double least_reach, std::span<const Cell> cuts)
       : complex_(complex),
         depth_(depth),
         height_(height),
         slight_(1e-3 / *std::max_element(height.begin(), height.end())),
-        least_reach_(least_reach) {}
+        least_reach_(least_reach),
+        cuts_(cuts.begin(), cuts.end()) {}
 
   std::vector<LimbTip> tips() const {
     std::vector<LimbTip> result;
@@ -56,6 +59,14 @@ class Thinning {
 
   void bared(Cell cell, double now) {
     if (DualComplex::dimension(cell) == 1) birth_[cell] = static_cast<float>(now);
+    if (!cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
+  }
+
+  std::optional<Cell> next_cut() {
+    if (bared_cuts_.empty()) return std::nullopt;
+    const Cell cut = bared_cuts_.back();
+    bared_cuts_.pop_back();
+    return cut;
   }
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
@@ -74,11 +85,12 @@ class Thinning {
       line.tip.root = end;
       line.tip.radius = radius_at(end);
       line.tip.width = birth;
-      line.tip.reach = 0;
+      line.tip.reach = line.tip.length = 0;
       line.tip_at = line.length();
       line.lead = birth - fall;
     } else {
       const double way = std::min(line.length() - line.tip_at, now - birth);
+      line.tip.length = std::max(line.tip.length, way);
       line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
       line.begun = line.begun || way >= std::max(kBegun * (birth - 1), kMinLength);
     }
@@ -129,7 +141,9 @@ class Thinning {
     const std::uint32_t number = std::exchange(line_at_[vertex], DualComplex::kNone);
     if (number == DualComplex::kNone) {
       const double radius = radius_at(vertex);
-      lines_.push_back({.tip = {vertex, vertex, radius, birth, 0}, .rise = radius, .lead = birth});
+      lines_.push_back({.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth},
+                        .rise = radius,
+                        .lead = birth});
       return static_cast<std::uint32_t>(lines_.size() - 1);
     }
     return number;
@@ -152,6 +166,8 @@ class Thinning {
   std::span<const double> height_;
   double slight_;
   double least_reach_;
+  std::set<Cell> cuts_;
+  std::vector<Cell> bared_cuts_;
   std::vector<Line> lines_;
   CellValues<float> birth_{complex_, 1, 0};                             // of lone edges
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
@@ -160,8 +176,8 @@ class Thinning {
 }  // namespace
 
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-                   double least_reach, ExecutionContext* context) {
-  Thinning thinning(complex, depth, height, least_reach);
+                   double least_reach, ExecutionContext* context, std::span<const Cell> cuts) {
+  Thinning thinning(complex, depth, height, least_reach, cuts);
   Collapsing collapsing(complex, context);
   collapsing.run(thinning);
   return {thinning.tips(), collapsing.cells()};

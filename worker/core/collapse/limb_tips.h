@@ -15,6 +15,7 @@ struct LimbTip {
   double radius = 0;           ///< distance of the root to the surface, spacings
   double width = 0;            ///< half the limb's width there, across its wider side, spacings
   double reach = 0;            ///< the greatest way along the line from there over the birth of an edge
+  double length = 0;           ///< the greatest way, spacings
 };
 
 /// What thinning tells.
@@ -35,8 +36,11 @@ struct LimbTips {
 /// @param depth per cube: its distance to the surface, spacings; many are alike.
 /// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,
 ///   so that the lattice's order does not decide.
+/// @param cuts squares and edges of what is left that are taken out as soon as they have no coface: a limb with a loop
+///   has no tip.
 /// @throws CoreError kCancelled when the context asks to stop.
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-                   double least_reach, ExecutionContext* context = nullptr);
+                   double least_reach, ExecutionContext* context = nullptr,
+                   std::span<const DualComplex::Cell> cuts = {});
 
 }  // namespace affskel::core

@@ -42,7 +42,7 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
 }
 
 bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest,
-             std::span<const float> reach) {
+             const std::function<bool(std::uint32_t cube, float way)>& wanted) {
   std::unordered_map<std::uint32_t, float> way;
   using Item = std::pair<float, std::uint32_t>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
@@ -52,7 +52,7 @@ bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest,
     const float reached = front.top().first;
     const std::uint32_t cube = front.top().second;
     front.pop();
-    if (reached <= reach[cube]) return true;
+    if (wanted(cube, reached)) return true;
     if (reached > way[cube]) continue;
     complex.for_each_step(cube, [&](std::uint32_t to, std::uint32_t steps) {
       const float there = reached + kStepLength[steps];

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -35,8 +37,9 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
                                  std::span<const float> cost, ExecutionContext* context = nullptr);
 
 /// Whether such a way of cost 1 everywhere, no longer than `longest` spacings, leads from a cube about a cell to one
-/// whose reach is no less than its length (Dijkstra 1959).  Looks at no more than lies within.
-/// @param reach per cube, spacings; negative: none.
-bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest, std::span<const float> reach);
+/// that is wanted (Dijkstra 1959).  Looks at no more than lies within.
+/// @param wanted of a cube, at the end of a way so long.
+bool is_near(const DualComplex& complex, DualComplex::Cell from, float longest,
+             const std::function<bool(std::uint32_t cube, float way)>& wanted);
 
 }  // namespace affskel::core

@@ -25,7 +25,6 @@
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
 #include "core/ridge/row_band.h"
-#include "core/solid/betti_numbers.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 
@@ -253,16 +252,6 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   curve.beyond = volume_beyond(curve.segments, curve.share);
 }
 
-// How many loops the lines have more than the surface has handles, where noise makes it cross itself.  Where several surfaces
-// pass through each other, what they bound together may have tunnels that none has.
-std::uint64_t tunnels_of_noise(const Solid& solid, const SheetLines& lines) {
-  if (!solid.self_intersecting || solid.shells.size() > 1) return 0;
-  DisjointSets pieces(lines.vertices.size());
-  std::uint64_t loops = 0;
-  for (const auto& [a, b] : lines.segments) loops += !pieces.unite(a, b);
-  return loops - std::min(loops, betti_numbers(solid).holes);
-}
-
 // The lines in their places, and which vertices of the ridge theirs are.
 struct Drawn {
   CurveSkeleton curve;
@@ -281,8 +270,7 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   lines = sheet_lines(ridge, ends.is_end, options.context);
-  lines = pruned_lines(lines, places, thickness_along(surface, lines, places, balls), ends.is_end,
-                       {tunnels_of_noise(solid, lines), options.least_reach, options.context});
+  lines = pruned_lines(lines, places, thickness_along(surface, lines, places, balls), options.context);
   lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;

@@ -4,13 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <map>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "core/base/disjoint_sets.h"
-#include "core/collapse/collapsing.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -22,30 +19,10 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-// What is free goes, in any order.
-struct AnyOrder {
-  static double time(Cell, double) { return 0; }
-  static double level(Cell) { return 0; }
-  static void removed(Cell, Cell, double) {}
-  static void bared(Cell, double) {}
-};
-
-CellSet collapsed_again(const DualComplex& complex, const CellSet& cells, std::span<const Anchor> anchors,
-                        ExecutionContext* context) {
-  Collapsing collapsing(complex, cells, context);
-  for (const Anchor& anchor : anchors)
-    if (cells.has(anchor.cell)) collapsing.fix(anchor.cell);
-  AnyOrder order;
-  collapsing.run(order);
-  return collapsing.cells();
-}
-
-// Of vertices in ascending order, spacings.
-std::vector<Vec3> places_of_vertices(const Lattice& lattice, const std::vector<Cell>& vertices) {
-  std::vector<Vec3> places;
-  for (const auto& [i, j, k] : cells_of_vertices(lattice, vertices))
-    places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-  return places;
+CellSet closed(const DualComplex& complex, std::span<const Anchor> anchors) {
+  CellSet cells(complex);
+  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, cells);
+  return cells;
 }
 
 // A closed way along edges of the complex, or a sum of such ways modulo 2.
@@ -68,7 +45,6 @@ class Tunnels {
   Tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
           std::span<const float> radius)
       : lattice_(lattice), complex_(complex), radius_(radius) {
-    if (solid.self_intersecting) return;  // they tell nothing of its outside
     for (const auto& loop : surface_loops(solid.mesh)) {
       auto& places = of_surface_.emplace_back();
       for (const std::uint32_t v : loop) places.push_back(solid.mesh.points[v]);
@@ -180,20 +156,6 @@ class Tunnels {
   std::vector<std::vector<Vec3>> of_surface_;
 };
 
-// Whether a loop is one round a tunnel that noise has bored through a limb.
-bool is_bored(const Lattice& lattice, const DualComplex& complex, std::span<const float> thickness,
-              std::vector<Cell> loop) {
-  std::sort(loop.begin(), loop.end());
-  const std::vector<Vec3> places = places_of_vertices(lattice, loop);
-  for (std::size_t n = 0; n < loop.size(); ++n) {
-    const double reach = kOfNoise * radius_about(complex, thickness, loop[n]);
-    if (std::all_of(places.begin(), places.end(),
-                    [&](const Vec3& p) { return norm(p - places[n]) <= reach; }))
-      return true;
-  }
-  return false;
-}
-
 // The lines that opened loops leave: from their open ends to what stays without them.
 class OpenLines {
  public:
@@ -211,7 +173,8 @@ class OpenLines {
     std::size_t root = 0;
     while (root + 1 < line.size() && from(root) < ball) ++root;
     const double width = radius_at(line[root]);
-    return {end, line[root], width, width, (from(line.size() - 1) - ball) / width};
+    const double length = from(line.size() - 1) - ball;
+    return {end, line[root], width, width, length / width, length};
   }
 
  private:
@@ -233,14 +196,17 @@ class OpenLines {
     return line;
   }
 
+  // Spacings.
   std::vector<Vec3> places_of(const std::vector<Cell>& line) const {
     std::vector<Cell> sorted = line;
     std::sort(sorted.begin(), sorted.end());
-    const std::vector<Vec3> known = places_of_vertices(lattice_, sorted);
+    const std::vector<CellPlace> cells = cells_of_vertices(lattice_, sorted);
     std::vector<Vec3> places;
-    for (const Cell vertex : line)
-      places.push_back(known[static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), vertex) -
-                                                      sorted.begin())]);
+    for (const Cell vertex : line) {
+      const auto& [i, j, k] = cells[static_cast<std::size_t>(
+          std::lower_bound(sorted.begin(), sorted.end(), vertex) - sorted.begin())];
+      places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    }
     return places;
   }
 
@@ -252,101 +218,25 @@ class OpenLines {
   std::span<const float> radius_;
 };
 
-bool is_square(Cell cell) {
-  return DualComplex::dimension(cell) == 2;
-}
-
-// Of the squares of each membrane the one nearest to the surface that is no anchor.
-// @param squares of membranes: those of one share edges.
-std::vector<Cell> weakest_squares(const DualComplex& complex, std::span<const float> radius,
-                                  const CellSet& anchored, const std::vector<Cell>& squares) {
-  DisjointSets membranes(squares.size());
-  std::unordered_map<Cell, std::uint32_t> beside;  // per edge: a square
-  for (std::uint32_t n = 0; n < squares.size(); ++n) {
-    complex.for_each_face(squares[n], [&](Cell edge) {
-      const auto [known, fresh] = beside.try_emplace(edge, n);
-      if (!fresh) membranes.unite(n, known->second);
-    });
-  }
-  std::map<std::uint32_t, std::pair<double, Cell>> weakest;  // by membrane
-  for (std::uint32_t n = 0; n < squares.size(); ++n) {
-    if (anchored.has(squares[n])) continue;
-    const std::pair here(radius_about(complex, radius, squares[n]), squares[n]);
-    const auto [known, fresh] = weakest.try_emplace(membranes.find(n), here);
-    if (!fresh) known->second = std::min(known->second, here);
-  }
-  std::vector<Cell> result;
-  for (const auto& [membrane, square] : weakest) result.push_back(square.second);
-  return result;
-}
-
-// Opens membranes about so many voids.
-// @param graph what is left, collapsed as far as it can be: its squares are those of membranes.
-std::uint32_t open_voids(const DualComplex& complex, std::span<const float> radius, const CellSet& anchored,
-                         std::uint64_t voids, CellSet& left, CellSet& graph, ExecutionContext* context) {
-  std::uint32_t opened = 0;
-  while (opened < voids) {
-    std::vector<Cell> squares;
-    graph.for_each([&](Cell cell) {
-      if (is_square(cell)) squares.push_back(cell);
-    });
-    const std::vector<Cell> weakest = weakest_squares(complex, radius, anchored, squares);
-    if (weakest.empty()) break;
-    for (const Cell square : weakest) {
-      if (opened == voids) break;
-      left.erase(square);
-      graph.erase(square);
-      ++opened;
-    }
-    graph = collapsed_again(complex, graph, {}, context);
-  }
-  return opened;
-}
-
-// Of as many loops as a noisy solid has too many the bored ones.
-std::vector<Cycle> bored_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
-                                 std::span<const float> thickness, const Tunnels& tunnels,
-                                 const CellSet& graph, ExecutionContext* context) {
-  const auto loops = shortest_loops(complex, graph, kMostOfNoise + 1, context);
-  const std::size_t handles = betti_numbers(solid).holes;
-  std::vector<Cycle> cycles;
-  if (loops.size() > kMostOfNoise) return cycles;
-  for (std::size_t n = 0; n + handles < loops.size(); ++n)
-    if (is_bored(lattice, complex, thickness, loops[n])) cycles.push_back(tunnels.cycle_of(loops[n], graph));
-  return cycles;
-}
-
-// The tunnels that a clean solid lacks, by loops round them.
-std::vector<Cycle> tunnels_of_webs(const Solid& solid, const DualComplex& complex, const Tunnels& tunnels,
-                                   const CellSet& graph, ExecutionContext* context) {
-  const auto loops = shortest_loops(complex, graph, kMostTunnels + 1, context);
-  std::vector<Cycle> cycles;
-  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return cycles;
-  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
-  return Tunnels::bounding(std::move(cycles));
-}
-
 }  // namespace
 
 FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
                            std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
                            const FillOptions& options) {
   ExecutionContext* const context = options.context;
-  const std::span<const float> thickness = options.thickness;
-  const bool noisy = solid.self_intersecting;
-  if (noisy && solid.shells.size() > 1) return {};
-  CellSet anchored(complex);
-  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
-  CellSet graph = collapsed_again(complex, left, {}, context);
-  FilledTunnels filled;
-  if (noisy) filled.voids = open_voids(complex, radius, anchored, options.voids, left, graph, context);
+  if (solid.self_intersecting) return {};
+  const CellSet graph = collapsed(complex, left, {}, context);
   bool encloses = false;
-  graph.for_each([&](Cell cell) { encloses = encloses || is_square(cell); });
+  graph.for_each([&](Cell cell) { encloses = encloses || DualComplex::dimension(cell) > 1; });
+  if (encloses) return {};
+  const auto loops = shortest_loops(complex, graph, kMostTunnels + 1, context);
+  if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return {};
   const Tunnels tunnels(solid, lattice, complex, radius);
   std::vector<Cycle> cycles;
-  if (!encloses)
-    cycles = noisy ? bored_tunnels(solid, lattice, complex, thickness, tunnels, graph, context)
-                   : tunnels_of_webs(solid, complex, tunnels, graph, context);
+  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
+  cycles = Tunnels::bounding(std::move(cycles));
+  const CellSet anchored = closed(complex, anchors);
+  FilledTunnels filled;
   std::vector<Cell> ends;
   for (std::size_t n = 0; n < cycles.size(); ++n) {
     throw_if_stopped(context);
@@ -358,9 +248,9 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
     for (std::size_t other = n + 1; other < cycles.size(); ++other)
       if (cycles[other].has(edge)) cycles[other].add(cycles[n]);
   }
-  if (filled.number + filled.voids == 0) return filled;
-  const CellSet rest = collapsed_again(complex, left, anchors, context);
-  const OpenLines lines(lattice, complex, left, rest, noisy ? thickness : radius);
+  if (filled.number == 0) return filled;
+  const CellSet rest = collapsed(complex, left, anchors, context);
+  const OpenLines lines(lattice, complex, left, rest, radius);
   std::vector<Anchor> stay(anchors.begin(), anchors.end());
   for (const Cell end : ends) {
     const LimbTip tip = lines.tip_at(end);
@@ -368,7 +258,20 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
     stay.push_back({end});
     filled.limbs.push_back(tip);
   }
-  left = collapsed_again(complex, left, stay, context);
+  left = collapsed(complex, left, stay, context);
+  return filled;
+}
+
+FilledTunnels fill_bored(const NoisySolid& solid, std::span<const Anchor> anchors, CellSet& left,
+                         ExecutionContext* context) {
+  const DualComplex& complex = solid.complex;
+  const CellSet anchored = closed(complex, anchors);
+  FilledTunnels filled;
+  for (const Cell cell : bored_cells(solid, left, &anchored, context)) {
+    left.erase(cell);
+    ++(DualComplex::dimension(cell) == 2 ? filled.voids : filled.number);
+  }
+  if (filled.number + filled.voids > 0) left = collapsed(complex, left, anchors, context);
   return filled;
 }
 

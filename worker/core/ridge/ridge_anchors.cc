@@ -175,32 +175,33 @@ class Choice {
   }
 
   void take_tips() {
-    const std::vector<float> anchored = around_anchors([](std::uint32_t) { return kNoWay; });
-    const auto thick = [&](std::uint32_t cube) {
-      return static_cast<float>(constants_.end_spacings +
-                                constants_.end_radii * static_cast<double>(evidence_.thickness[cube]));
-    };
-    std::vector<float> limbs;  // what of limbs is anchored, by how far they reach from there
-    if (!evidence_.noisy.empty()) limbs = around_anchors(thick);
-    const float thickest = limbs.empty() ? 0 : *std::max_element(limbs.begin(), limbs.end());
+    std::vector<char> anchored(complex_.cubes(), 0);
+    for (const Anchor& anchor : result_.anchors)
+      for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
+    const auto reached = [&](std::uint32_t cube, float) { return anchored[cube] != 0; };
     for (std::size_t n = 0; n < evidence_.limbs.size(); ++n) {
       const LimbTip& tip = evidence_.limbs[n];
       if (taken_.has(tip.vertex) ||
-          is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), anchored) ||
-          (!limbs.empty() && evidence_.noisy[n] && is_near(complex_, tip.vertex, thickest, limbs)))
+          is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), reached) ||
+          (!evidence_.noisy.empty() && evidence_.noisy[n] && is_spike(tip, anchored)))
         continue;
       take({tip.vertex, 0});
       ++result_.limbs;
     }
   }
 
-  // Per cube about an anchor the reach from there; -1 elsewhere.
-  template <class Reach>
-  std::vector<float> around_anchors(const Reach& reach) const {
-    std::vector<float> reaches(complex_.cubes(), -1);
-    for (const Anchor& anchor : result_.anchors)
-      for (const auto& member : complex_.star(anchor.cell)) reaches[member.cube] = reach(member.cube);
-    return reaches;
+  // Whether a limb no longer than the one that it stands on is thick ends no farther than that from what is anchored.
+  bool is_spike(const LimbTip& tip, const std::vector<char>& anchored) const {
+    const auto ends_in = [&](std::uint32_t cube, float way) {
+      const double thick =
+          constants_.end_spacings + constants_.end_radii * static_cast<double>(evidence_.thickness[cube]);
+      return anchored[cube] != 0 && std::max(tip.length, static_cast<double>(way)) <= thick;
+    };
+    const float thickest = *std::max_element(evidence_.thickness.begin(), evidence_.thickness.end());
+    return is_near(
+        complex_, tip.vertex,
+        static_cast<float>(constants_.end_spacings + constants_.end_radii * static_cast<double>(thickest)),
+        ends_in);
   }
 
   // How far from a tip what is anchored may end: so far from the surface, which is the tip's own radius farther away.

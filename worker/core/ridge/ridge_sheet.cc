@@ -119,20 +119,33 @@ std::vector<Vec3> mesh_places(const Solid& solid, const Lattice& lattice, const 
   return places;
 }
 
+// Of one surface that crosses itself: where several do, what they bound together may have tunnels that none has.
+std::optional<NoisySolid> noisy_solid(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis) {
+  if (!solid.self_intersecting || solid.shells.size() > 1) return std::nullopt;
+  return NoisySolid{lattice, basis.complex, basis.radius, basis.thickness, betti_numbers(solid).holes};
+}
+
 }  // namespace
 
-RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned threads,
+RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
                        ExecutionContext* context, const RidgeConstants& constants) {
   RidgeBasis basis{.complex = DualComplex(lattice),
                    .topology = {},
                    .radius = {},
+                   .thickness = {},
                    .limbs = {},
                    .loops = {},
                    .derivatives = {}};
   parallel_for(threads, 3, [&](std::size_t part) {
     if (part == 0) {
       basis.radius = surface_distance(lattice);
-      LimbTips limbs = limb_tips(basis.complex, basis.radius, field.erosion, constants.limb_reach, context);
+      if (solid.self_intersecting) basis.thickness = section_radii(field);
+      const auto tips = [&](std::span<const DualComplex::Cell> cuts) {
+        return limb_tips(basis.complex, basis.radius, field.erosion, constants.limb_reach, context, cuts);
+      };
+      LimbTips limbs = tips({});
+      if (const auto noisy = noisy_solid(solid, lattice, basis))
+        limbs = tips(bored_cells(*noisy, limbs.left, nullptr, context));
       basis.limbs = std::move(limbs.tips);
       basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
     } else if (part == 1) {
@@ -147,7 +160,7 @@ RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        const RidgeSheetOptions& options, const RidgeConstants& constants) {
   std::optional<RidgeBasis> made;
-  if (options.basis == nullptr) made = ridge_basis(lattice, field, 1, options.context, constants);
+  if (options.basis == nullptr) made = ridge_basis(solid, lattice, field, 1, options.context, constants);
   const RidgeBasis& basis = made ? *made : *options.basis;
   if (basis.derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
@@ -162,7 +175,6 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
   std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
-  const std::vector<float> thickness = solid.self_intersecting ? section_radii(field) : std::vector<float>{};
   const std::vector<char> noisy =
       noisy_limbs(solid, walls, lattice, basis.complex, basis.radius, basis.limbs);
   const RidgeEvidence evidence{.complex = basis.complex,
@@ -175,7 +187,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .limbs = basis.limbs,
                                .radius = basis.radius,
                                .noisy = noisy,
-                               .thickness = thickness};
+                               .thickness = basis.thickness};
   const RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
   Collapsed left = collapse(basis.complex, chosen.anchors,
                             {.cost = costs_of_ways(field, basis.radius), .context = options.context});
@@ -185,11 +197,13 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
   if (basis.topology.holes + basis.topology.cavities > 0) {
-    sheet.filled = fill_tunnels(
-        solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
-        {.limb_reach = constants.limb_reach, .thickness = thickness, .context = options.context});
+    const std::optional<NoisySolid> bored = noisy_solid(solid, lattice, basis);
+    sheet.filled = bored
+                       ? fill_bored(*bored, chosen.anchors, left.cells, options.context)
+                       : fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
+                                      {.limb_reach = constants.limb_reach, .context = options.context});
     sheet.lattice.holes -= sheet.filled.number;
-    sheet.lattice.cavities -= sheet.filled.voids;
+    sheet.lattice.cavities -= std::min<std::uint64_t>(sheet.lattice.cavities, sheet.filled.voids);
   }
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());

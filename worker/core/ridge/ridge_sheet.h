@@ -29,6 +29,7 @@ struct RidgeBasis {
   DualComplex complex;
   BettiNumbers topology;                      ///< of the complex
   std::vector<float> radius;                  ///< per sample point: see surface_distance()
+  std::vector<float> thickness;               ///< see section_radii(); empty where no surface crosses itself
   std::vector<LimbTip> limbs;                 ///< of the solid, whatever is anchored
   std::vector<LatticeLoop> loops;             ///< the smallest tunnels, kMaxLoops at most
   std::vector<PointDerivatives> derivatives;  ///< see smoothed_derivatives()
@@ -36,11 +37,13 @@ struct RidgeBasis {
 
 inline constexpr std::size_t kMaxLoops = 8;
 
+/// @param lattice of this solid.
 /// @param field of this lattice.
 /// @param threads up to two are of use; the result does not depend on it.
 /// @throws CoreError kCancelled when the context asks to stop.
-RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned threads = 1,
-                       ExecutionContext* context = nullptr, const RidgeConstants& constants = {});
+RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field,
+                       unsigned threads = 1, ExecutionContext* context = nullptr,
+                       const RidgeConstants& constants = {});
 
 struct RidgeSheetOptions {
   RidgeBounds bounds;

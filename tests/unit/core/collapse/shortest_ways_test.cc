@@ -36,12 +36,13 @@ TEST(ShortestWays, TellWhatIsNear) {
     for (int n = 0; n < 3; ++n) reach[random.next() % reach.size()] = n == 0 ? 3 : kNoWay;
     const Anchor from{complex.cell(static_cast<std::uint32_t>(random.next() % complex.cubes()), 26), 0};
     const std::vector<float> way = shortest_ways(complex, {&from, 1}, {});
+    const auto wanted = [&](std::uint32_t cube, float length) { return length <= reach[cube]; };
     float nearest = kNoWay;
     for (std::size_t cube = 0; cube < way.size(); ++cube)
       if (way[cube] <= reach[cube]) nearest = std::min(nearest, way[cube]);
     for (const float longest : {0.5F, 2.0F, 4.0F, 8.0F}) {
       if (std::abs(nearest - longest) < 0.2F) continue;  // ways are told apart to a share of a spacing
-      EXPECT_EQ(is_near(complex, from.cell, longest, reach), nearest < longest) << seed;
+      EXPECT_EQ(is_near(complex, from.cell, longest, wanted), nearest < longest) << seed;
       ++(nearest < longest ? near : far);
     }
   }

@@ -285,7 +285,7 @@ TEST(RidgeSheet, OfABodyUnderNoiseThatMakesItCrossItselfKeepsItsShape) {
   const ErodedSolid body(mesh, axes(h), "sphere:400");
   const ErodedSolid noisy(perturb(mesh, {0.01 * box_diagonal(mesh), 1}), axes(h), "sphere:400");
   ASSERT_TRUE(noisy.solid.self_intersecting);
-  const RidgeBasis basis = ridge_basis(noisy.lattice, noisy.field);
+  const RidgeBasis basis = ridge_basis(noisy.solid, noisy.lattice, noisy.field);
   EXPECT_GT(basis.topology.holes, 20U);
   EXPECT_GT(basis.topology.cavities, 0U);
   const RidgeSheet sheet =
@@ -401,7 +401,7 @@ TEST(RidgeSheet, OfTwoSolidsIsThatOfEach) {
 
 TEST(RidgeSheet, OfABasisIsTheSameAtEveryThresholdAndNumberOfThreads) {
   const ErodedSolid box(make_box(4, 2, 1, 1), axes(0.125), "sphere:320");
-  const RidgeBasis basis = ridge_basis(box.lattice, box.field, 2);
+  const RidgeBasis basis = ridge_basis(box.solid, box.lattice, box.field, 2);
   for (const double share : {1.0, 1.5}) {
     RidgeSheetOptions options;
     options.bounds.low *= share;

@@ -1,0 +1,126 @@
+#include "core/ridge/bored_cells.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "core/base/disjoint_sets.h"
+#include "core/collapse/collapse.h"
+#include "core/collapse/shortest_loops.h"
+#include "core/contour/edge_cells.h"
+
+namespace affskel::core {
+namespace {
+
+using Cell = DualComplex::Cell;
+
+class Bored {
+ public:
+  Bored(const NoisySolid& solid, const CellSet& graph, const CellSet* keep)
+      : solid_(solid), complex_(solid.complex), graph_(graph), keep_(keep) {
+    graph.for_each([&](Cell cell) {
+      if (DualComplex::dimension(cell) == 2) squares_.push_back(cell);
+    });
+  }
+
+  // Of each membrane, whose squares share edges, one.
+  std::vector<Cell> squares() const {
+    DisjointSets membranes(squares_.size());
+    std::unordered_map<Cell, std::uint32_t> beside;  // per edge: a square
+    for (std::uint32_t n = 0; n < squares_.size(); ++n) {
+      complex_.for_each_face(squares_[n], [&](Cell edge) {
+        const auto [known, fresh] = beside.try_emplace(edge, n);
+        if (!fresh) membranes.unite(n, known->second);
+      });
+    }
+    std::map<std::uint32_t, Weakest> weakest;  // by membrane
+    for (std::uint32_t n = 0; n < squares_.size(); ++n) look_at(squares_[n], weakest[membranes.find(n)]);
+    std::vector<Cell> result;
+    for (const auto& [membrane, found] : weakest)
+      if (found) result.push_back(found->second);
+    return result;
+  }
+
+  std::vector<Cell> edges(ExecutionContext* context) const {
+    const auto loops = shortest_loops(complex_, graph_, kMostBored + 1, context);
+    std::vector<Cell> result;
+    if (loops.size() > kMostBored) return result;
+    std::unordered_set<Cell> passed;
+    for (std::size_t n = 0; n + solid_.handles < loops.size(); ++n) {
+      const std::vector<Cell>& loop = loops[n];
+      if (!is_bored(loop) ||
+          std::any_of(loop.begin(), loop.end(), [&](Cell v) { return passed.contains(v); }))
+        continue;
+      Weakest weakest;
+      for (std::size_t v = 0; v < loop.size(); ++v)
+        if (const auto edge = edge_between(loop[v], loop[(v + 1) % loop.size()])) look_at(*edge, weakest);
+      if (!weakest) continue;
+      result.push_back(weakest->second);
+      passed.insert(loop.begin(), loop.end());
+    }
+    return result;
+  }
+
+ private:
+  using Weakest = std::optional<std::pair<double, Cell>>;  // by distance to the surface
+
+  void look_at(Cell cell, Weakest& weakest) const {
+    if (keep_ != nullptr && keep_->has(cell)) return;
+    const std::pair here(radius_about(complex_, solid_.radius, cell), cell);
+    if (!weakest || here < *weakest) weakest = here;
+  }
+
+  // An edge of no square.
+  std::optional<Cell> edge_between(Cell a, Cell b) const {
+    const auto at_a = complex_.cofaces(a), at_b = complex_.cofaces(b);
+    for (const Cell edge : at_a) {
+      if (!graph_.has(edge) || std::find(at_b.begin(), at_b.end(), edge) == at_b.end()) continue;
+      const auto of_edge = complex_.cofaces(edge);
+      if (std::none_of(of_edge.begin(), of_edge.end(), [&](Cell square) { return graph_.has(square); }))
+        return edge;
+    }
+    return std::nullopt;
+  }
+
+  bool is_bored(std::vector<Cell> loop) const {
+    std::sort(loop.begin(), loop.end());
+    std::vector<Vec3> places;
+    for (const auto& [i, j, k] : cells_of_vertices(solid_.lattice, loop))
+      places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+      const double reach = kBored * radius_about(complex_, solid_.thickness, loop[n]);
+      if (std::all_of(places.begin(), places.end(),
+                      [&](const Vec3& p) { return norm(p - places[n]) <= reach; }))
+        return true;
+    }
+    return false;
+  }
+
+  const NoisySolid& solid_;
+  const DualComplex& complex_;
+  const CellSet& graph_;
+  const CellSet* keep_;
+  std::vector<Cell> squares_;
+};
+
+}  // namespace
+
+std::vector<DualComplex::Cell> bored_cells(const NoisySolid& solid, const CellSet& left, const CellSet* keep,
+                                           ExecutionContext* context) {
+  std::vector<Cell> result;
+  CellSet graph = collapsed(solid.complex, left, {}, context);
+  while (true) {
+    const Bored bored(solid, graph, keep);
+    std::vector<Cell> cells = bored.squares();
+    if (cells.empty()) cells = bored.edges(context);
+    if (cells.empty()) return result;
+    for (const Cell cell : cells) graph.erase(cell);
+    result.insert(result.end(), cells.begin(), cells.end());
+    graph = collapsed(solid.complex, graph, {}, context);
+  }
+}
+
+}  // namespace affskel::core
