@@ -56,6 +56,27 @@ TEST(LimbTips, AreNoneOfWhatIsNotLongerThanThick) {
   }
 }
 
+// A stick with a ring at one end, which has no tip while it is a loop.
+TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
+  const Mesh ring = moved(make_torus(1.2, 0.4, 1024), {7.2, 0.4, 0.4});
+  const LatticeSolid solid(joined(make_box(6, 0.8, 0.8), ring), 0.13);
+  const DualComplex complex(solid.lattice);
+  const std::vector<float> depth = surface_distance(solid.lattice);
+  const std::vector<double> height(depth.begin(), depth.end());
+  const LimbTips whole = limb_tips(complex, depth, height, 1);
+  EXPECT_EQ(whole.tips.size(), 1U);
+  std::vector<DualComplex::Cell> loop;
+  whole.left.for_each([&](DualComplex::Cell cell) {
+    if (DualComplex::dimension(cell) == 1) loop.push_back(cell);
+  });
+  ASSERT_GT(loop.size(), 20U);
+  const LimbTips cut = limb_tips(complex, depth, height, 1, nullptr, {&loop[loop.size() / 2], 1});
+  EXPECT_GE(cut.tips.size(), 2U);
+  bool empty = true;
+  cut.left.for_each([&](DualComplex::Cell cell) { empty = empty && DualComplex::dimension(cell) == 0; });
+  EXPECT_TRUE(empty);
+}
+
 // The lines from the two corners of an end come together at once; the lattice's order does not tell which goes on.
 TEST(LimbTips, OfALathAreTheHigherCornersOfItsEnds) {
   for (const double x : {-1, 1}) {
