@@ -9,7 +9,7 @@ namespace affskel::worker {
 
 RidgeOfField::RidgeOfField(const FinishedField& field)
     : field_(field),
-      basis_(core::ridge_basis(field.solid(), field.lattice(), field.in_frame(), field.threads(),
+      basis_(core::ridge_basis(field.job().solid(), field.lattice(), field.in_frame(), field.threads(),
                                field.context())) {}
 
 core::RidgeSheet RidgeOfField::sheet(double threshold) const {
