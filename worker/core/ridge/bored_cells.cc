@@ -17,10 +17,11 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-class Bored {
+// What may go of what is left: `graph` is that, collapsed as far as it can be.
+class Choice {
  public:
-  Bored(const NoisySolid& solid, const CellSet& graph, const CellSet* keep)
-      : solid_(solid), complex_(solid.complex), graph_(graph), keep_(keep) {
+  Choice(const NoisySolid& solid, const CellSet& left, const CellSet& graph, const CellSet& keep)
+      : solid_(solid), complex_(solid.complex), left_(left), graph_(graph), keep_(keep) {
     graph.for_each([&](Cell cell) {
       if (DualComplex::dimension(cell) == 2) squares_.push_back(cell);
     });
@@ -68,18 +69,18 @@ class Bored {
   using Weakest = std::optional<std::pair<double, Cell>>;  // by distance to the surface
 
   void look_at(Cell cell, Weakest& weakest) const {
-    if (keep_ != nullptr && keep_->has(cell)) return;
+    if (keep_.has(cell)) return;
     const std::pair here(radius_about(complex_, solid_.radius, cell), cell);
     if (!weakest || here < *weakest) weakest = here;
   }
 
-  // An edge of no square.
+  // An edge of no square that is left.
   std::optional<Cell> edge_between(Cell a, Cell b) const {
     const auto at_a = complex_.cofaces(a), at_b = complex_.cofaces(b);
     for (const Cell edge : at_a) {
       if (!graph_.has(edge) || std::find(at_b.begin(), at_b.end(), edge) == at_b.end()) continue;
       const auto of_edge = complex_.cofaces(edge);
-      if (std::none_of(of_edge.begin(), of_edge.end(), [&](Cell square) { return graph_.has(square); }))
+      if (std::none_of(of_edge.begin(), of_edge.end(), [&](Cell square) { return left_.has(square); }))
         return edge;
     }
     return std::nullopt;
@@ -101,25 +102,27 @@ class Bored {
 
   const NoisySolid& solid_;
   const DualComplex& complex_;
-  const CellSet& graph_;
-  const CellSet* keep_;
+  const CellSet &left_, &graph_, &keep_;
   std::vector<Cell> squares_;
 };
 
 }  // namespace
 
-std::vector<DualComplex::Cell> bored_cells(const NoisySolid& solid, const CellSet& left, const CellSet* keep,
-                                           ExecutionContext* context) {
-  std::vector<Cell> result;
-  CellSet graph = collapsed(solid.complex, left, {}, context);
+BoredCells bored_cells(const NoisySolid& solid, const CellSet& left, std::span<const Anchor> anchors,
+                       ExecutionContext* context) {
+  const DualComplex& complex = solid.complex;
+  CellSet keep(complex);
+  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, keep);
+  BoredCells result{{}, left};
   while (true) {
-    const Bored bored(solid, graph, keep);
-    std::vector<Cell> cells = bored.squares();
-    if (cells.empty()) cells = bored.edges(context);
+    const CellSet graph = collapsed(complex, result.left, {}, context);
+    const Choice choice(solid, result.left, graph, keep);
+    std::vector<Cell> cells = choice.squares();
+    if (cells.empty()) cells = choice.edges(context);
     if (cells.empty()) return result;
-    for (const Cell cell : cells) graph.erase(cell);
-    result.insert(result.end(), cells.begin(), cells.end());
-    graph = collapsed(solid.complex, graph, {}, context);
+    for (const Cell cell : cells) result.left.erase(cell);
+    result.left = collapsed(complex, result.left, anchors, context);
+    result.cells.insert(result.cells.end(), cells.begin(), cells.end());
   }
 }
 

@@ -19,12 +19,6 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-CellSet closed(const DualComplex& complex, std::span<const Anchor> anchors) {
-  CellSet cells(complex);
-  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, cells);
-  return cells;
-}
-
 // A closed way along edges of the complex, or a sum of such ways modulo 2.
 struct Cycle {
   std::vector<Cell> edges;   // ascending
@@ -235,7 +229,8 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
   std::vector<Cycle> cycles;
   for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
   cycles = Tunnels::bounding(std::move(cycles));
-  const CellSet anchored = closed(complex, anchors);
+  CellSet anchored(complex);
+  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
   FilledTunnels filled;
   std::vector<Cell> ends;
   for (std::size_t n = 0; n < cycles.size(); ++n) {
@@ -262,17 +257,23 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
   return filled;
 }
 
-FilledTunnels fill_bored(const NoisySolid& solid, std::span<const Anchor> anchors, CellSet& left,
-                         ExecutionContext* context) {
+BettiNumbers fill_bored(const NoisySolid& solid, const BettiNumbers& before, std::span<const Anchor> anchors,
+                        CellSet& left, ExecutionContext* context) {
   const DualComplex& complex = solid.complex;
-  const CellSet anchored = closed(complex, anchors);
-  FilledTunnels filled;
-  for (const Cell cell : bored_cells(solid, left, &anchored, context)) {
-    left.erase(cell);
-    ++(DualComplex::dimension(cell) == 2 ? filled.voids : filled.number);
-  }
-  if (filled.number + filled.voids > 0) left = collapsed(complex, left, anchors, context);
-  return filled;
+  BoredCells bored = bored_cells(solid, left, anchors, context);
+  if (bored.cells.empty()) return before;
+  left = std::move(bored.left);
+  // Counted: a square that has one void on both sides bounds none, and leaves a loop when it goes.
+  const CellSet graph = collapsed(complex, left, {}, context);
+  std::array<std::uint64_t, 3> count{};
+  graph.for_each([&](Cell cell) { ++count[static_cast<std::size_t>(DualComplex::dimension(cell))]; });
+  BettiNumbers after = before;
+  const auto squares = static_cast<std::uint64_t>(std::count_if(
+      bored.cells.begin(), bored.cells.end(), [](Cell cell) { return DualComplex::dimension(cell) == 2; }));
+  after.cavities = count[2] == 0 ? 0 : before.cavities - std::min(before.cavities, squares);
+  // Euler and Poincare; fragments beside have neither loops nor voids.
+  after.holes = count_components(complex, graph) + after.cavities + count[1] - count[0] - count[2];
+  return after;
 }
 
 }  // namespace affskel::core

@@ -22,7 +22,6 @@ struct FillOptions {
 
 struct FilledTunnels {
   std::uint32_t number = 0;
-  std::uint32_t voids = 0;  ///< opened
   /// What hung loose and stays.  limb_tips() sees none of them: while the solid is thinned they are a loop.
   std::vector<LimbTip> limbs;
 };
@@ -44,10 +43,12 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
                            std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
                            const FillOptions& options = {});
 
-/// Fills what noise has bored, see bored_cells(): the edges that it names are taken out as above, and what hangs loose then
-/// goes as far as the anchors.  Limbs with such loops have tips, see limb_tips().
-FilledTunnels fill_bored(const NoisySolid& solid, std::span<const Anchor> anchors, CellSet& left,
-                         ExecutionContext* context = nullptr);
+/// Fills what noise has bored, see bored_cells(): the cells that it names are taken out, and what hangs loose then goes as
+/// far as the anchors.  Limbs with such loops have tips, see limb_tips().
+/// @param before of the complex.
+/// @return of the complex filled: of what is left, with as many components as before.
+BettiNumbers fill_bored(const NoisySolid& solid, const BettiNumbers& before, std::span<const Anchor> anchors,
+                        CellSet& left, ExecutionContext* context = nullptr);
 
 inline constexpr std::size_t kMostTunnels = 64;  ///< with more the lattice resolves no solid at all
 

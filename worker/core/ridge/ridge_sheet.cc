@@ -145,7 +145,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
       };
       LimbTips limbs = tips({});
       if (const auto noisy = noisy_solid(solid, lattice, basis))
-        limbs = tips(bored_cells(*noisy, limbs.left, nullptr, context));
+        limbs = tips(bored_cells(*noisy, limbs.left, {}, context).cells);
       basis.limbs = std::move(limbs.tips);
       basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
     } else if (part == 1) {
@@ -197,13 +197,13 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
   if (basis.topology.holes + basis.topology.cavities > 0) {
-    const std::optional<NoisySolid> bored = noisy_solid(solid, lattice, basis);
-    sheet.filled = bored
-                       ? fill_bored(*bored, chosen.anchors, left.cells, options.context)
-                       : fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
-                                      {.limb_reach = constants.limb_reach, .context = options.context});
-    sheet.lattice.holes -= sheet.filled.number;
-    sheet.lattice.cavities -= std::min<std::uint64_t>(sheet.lattice.cavities, sheet.filled.voids);
+    if (const auto bored = noisy_solid(solid, lattice, basis)) {
+      sheet.lattice = fill_bored(*bored, basis.topology, chosen.anchors, left.cells, options.context);
+    } else {
+      sheet.filled = fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
+                                  {.limb_reach = constants.limb_reach, .context = options.context});
+      sheet.lattice.holes -= sheet.filled.number;
+    }
   }
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());

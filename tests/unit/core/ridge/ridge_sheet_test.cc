@@ -290,7 +290,11 @@ TEST(RidgeSheet, OfABodyUnderNoiseThatMakesItCrossItselfKeepsItsShape) {
   EXPECT_GT(basis.topology.cavities, 0U);
   const RidgeSheet sheet =
       ridge_sheet(noisy.solid, noisy.lattice, noisy.field, {.bounds = {}, .basis = &basis});
-  EXPECT_EQ(topology(sheet).betti, (BettiNumbers{sheet.lattice.components - sheet.fragments, 0, 0}));
+  BettiNumbers expected = sheet.lattice;
+  expected.components -= sheet.fragments;
+  EXPECT_EQ(topology(sheet).betti, expected);
+  EXPECT_LE(expected.holes, 2U);
+  EXPECT_EQ(expected.cavities, 0U);
   std::vector<Vec3> places;
   for (const SheetVertex& v : ridge_sheet(body.solid, body.lattice, body.field).vertices)
     places.push_back(body.place(v.position));
