@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/parallel.h"
 #include "core/collapse/collapse.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/dual_contour.h"
@@ -128,18 +127,16 @@ RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned
                    .limbs = {},
                    .loops = {},
                    .derivatives = {}};
-  parallel_for(threads, 3, [&](std::size_t part) {
-    if (part == 0) {
-      basis.radius = surface_distance(lattice);
-      LimbTips limbs = limb_tips(basis.complex, basis.radius, field.erosion, constants.limb_reach, context);
-      basis.limbs = std::move(limbs.tips);
-      basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
-    } else if (part == 1) {
-      basis.derivatives = smoothed_derivatives(lattice, field, context, constants);
-    } else {
-      basis.topology = betti_numbers(basis.complex, context);
-    }
-  });
+  // One after the other: each takes about as much memory as all that is kept, and beside each other they save a fifth of
+  // the time at most.
+  basis.topology = betti_numbers(basis.complex, context);
+  basis.radius = surface_distance(lattice);
+  {
+    LimbTips limbs = limb_tips(basis.complex, basis.radius, field.erosion, constants.limb_reach, context);
+    basis.limbs = std::move(limbs.tips);
+    basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
+  }
+  basis.derivatives = smoothed_derivatives(lattice, field, threads, context, constants);
   return basis;
 }
 

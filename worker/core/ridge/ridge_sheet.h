@@ -37,7 +37,7 @@ struct RidgeBasis {
 inline constexpr std::size_t kMaxLoops = 8;
 
 /// @param field of this lattice.
-/// @param threads up to two are of use; the result does not depend on it.
+/// @param threads >= 1; the result does not depend on it.
 /// @throws CoreError kCancelled when the context asks to stop.
 RidgeBasis ridge_basis(const Lattice& lattice, const FrameField& field, unsigned threads = 1,
                        ExecutionContext* context = nullptr, const RidgeConstants& constants = {});
