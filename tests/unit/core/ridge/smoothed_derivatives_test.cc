@@ -80,6 +80,17 @@ TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
   EXPECT_EQ(most, 3);
 }
 
+TEST(SmoothedDerivatives, DoNotDependOnTheNumberOfThreads) {
+  const BoxLattice box(15, 9, 11);
+  const FrameField field = field_of_branches(box.lattice, {Quadratic().branch()});
+  const auto found = smoothed_derivatives(box.lattice, field, 1),
+             same = smoothed_derivatives(box.lattice, field, 3);
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    EXPECT_EQ(found[p].gradient, same[p].gradient);
+    EXPECT_EQ(found[p].hessian, same[p].hessian);
+  }
+}
+
 // The same field in numbers near the end of the range of a double.
 TEST(SmoothedDerivatives, DoNotDependOnTheUnitOfE) {
   const BoxLattice box(9, 9, 9);
