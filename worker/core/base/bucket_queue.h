@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -9,59 +11,103 @@ namespace affskel::core {
 
 /// A queue by small whole numbers that only grow from one item taken to the next (a monotone bucket queue:
 /// Dial 1969).  What is put in below the number of the last item taken counts as having that one.  Items of
-/// one number leave in the order in which they came.
+/// one number leave in the order in which they came.  Buckets are lists of small blocks that are used again: as
+/// arrays that double they would be the largest of a collapse.
 template <class Item>
 class BucketQueue {
  public:
   void push(std::size_t number, Item item) {
     number = std::max(number, current_);
     if (number >= buckets_.size()) buckets_.resize(number + 1);
-    buckets_[number].push_back(std::move(item));
+    Bucket& bucket = buckets_[number];
+    const std::size_t place = bucket.end % kItems;
+    if (place == 0) append_block(bucket);
+    bucket.last->items[place] = std::move(item);
+    ++bucket.end;
   }
 
   /// @return false when nothing is left.
   bool pop(Item& item) {
-    for (; current_ < buckets_.size(); ++current_, next_ = 0) {
-      std::vector<Item>& bucket = buckets_[current_];
-      if (next_ < bucket.size()) {
-        item = std::move(bucket[next_++]);
-        return true;
-      }
-      std::vector<Item>().swap(bucket);
-    }
-    if (current_ > 0) {  // what comes now counts as having the last item's number
-      --current_;
-      next_ = 0;
-    }
-    return false;
+    if (!find_next()) return false;
+    Bucket& bucket = buckets_[current_];
+    item = std::move(bucket.first->items[bucket.begin % kItems]);
+    if (++bucket.begin % kItems == 0) drop_block(bucket);
+    return true;
   }
 
-  /// Takes all items of the least number there is, in the order in which they came; what is put in with that number
-  /// afterwards is taken by the next call.
+  /// Takes all items of the least number there is: a wave, for for_each_in_wave() until the next is taken.  What is put
+  /// in with that number afterwards is of the next one.
   /// @return false when nothing is left.
-  bool pop_all(std::vector<Item>& items) {
-    items.clear();
-    Item item;
-    if (!pop(item)) return false;
-    std::vector<Item>& bucket = buckets_[current_];
-    if (next_ == 1) {  // all of it, without a copy
-      bucket.front() = std::move(item);
-      items.swap(bucket);
-    } else {
-      items.push_back(std::move(item));
-      for (; next_ < bucket.size(); ++next_) items.push_back(std::move(bucket[next_]));
-      bucket.clear();
-    }
-    next_ = 0;
+  bool pop_wave() {
+    clear(wave_);
+    if (!find_next()) return false;
+    std::swap(wave_, buckets_[current_]);
     return true;
+  }
+
+  /// Calls visit(item) for those of the wave, in order; it may put in others.
+  template <class Visit>
+  void for_each_in_wave(const Visit& visit) const {
+    const Block* block = wave_.first;
+    for (std::size_t n = wave_.begin; n < wave_.end; ++n) {
+      visit(block->items[n % kItems]);
+      if ((n + 1) % kItems == 0) block = block->next;
+    }
   }
 
   /// The number of the last item taken.
   std::size_t current() const { return current_; }
 
  private:
-  std::vector<std::vector<Item>> buckets_;
-  std::size_t current_ = 0, next_ = 0;
+  static constexpr std::size_t kItems = 32, kBlocks = 64;  // of a block, and blocks made at a time
+
+  struct Block {
+    std::array<Item, kItems> items{};
+    Block* next = nullptr;
+  };
+  using Blocks = std::array<Block, kBlocks>;
+  // Items begin .. end - 1, counted from the first block of all that it had; those before have gone.
+  struct Bucket {
+    Block *first = nullptr, *last = nullptr;
+    std::size_t begin = 0, end = 0;
+  };
+
+  // Goes on to the first bucket that has an item.
+  bool find_next() {
+    for (; current_ < buckets_.size(); ++current_) {
+      if (buckets_[current_].begin < buckets_[current_].end) return true;
+      clear(buckets_[current_]);
+    }
+    if (current_ > 0) --current_;  // what comes now counts as having the last item's number
+    return false;
+  }
+
+  void append_block(Bucket& bucket) {
+    if (unused_ == nullptr) {
+      store_.push_back(std::make_unique<Blocks>());
+      for (Block& block : *store_.back()) block.next = std::exchange(unused_, &block);
+    }
+    Block* const block = std::exchange(unused_, unused_->next);
+    block->next = nullptr;
+    (bucket.first == nullptr ? bucket.first : bucket.last->next) = block;
+    bucket.last = block;
+  }
+
+  void drop_block(Bucket& bucket) {
+    Block* const block = std::exchange(bucket.first, bucket.first->next);
+    block->next = std::exchange(unused_, block);
+  }
+
+  void clear(Bucket& bucket) {
+    while (bucket.first != nullptr) drop_block(bucket);
+    bucket = {};
+  }
+
+  std::vector<std::unique_ptr<Blocks>> store_;
+  Block* unused_ = nullptr;
+  std::vector<Bucket> buckets_;
+  Bucket wave_;
+  std::size_t current_ = 0;
 };
 
 }  // namespace affskel::core

@@ -24,7 +24,7 @@ class Collapsing {
   /// Of all cells of a complex.
   /// @throws CoreError kCancelled, here and in run(), when the context asks to stop.
   Collapsing(const DualComplex& complex, ExecutionContext* context)
-      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} * kPlaces, 0) {
+      : complex_(complex), context_(context), states_(complex) {
     StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
       state(cell) = static_cast<std::uint8_t>(kThere | complex.cofaces(cell).count);
@@ -34,7 +34,7 @@ class Collapsing {
 
   /// Of some, closed under taking boundaries.
   Collapsing(const DualComplex& complex, const CellSet& cells, ExecutionContext* context)
-      : complex_(complex), context_(context), state_(std::size_t{complex.cubes()} * kPlaces, 0) {
+      : complex_(complex), context_(context), states_(complex) {
     cells.for_each([&](Cell cell) {
       state(cell) |= kThere;
       complex_.for_each_face(cell, [&](Cell face) { ++state(face); });
@@ -89,16 +89,15 @@ class Collapsing {
 
  private:
   static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20;
-  static constexpr std::size_t kPlaces = 27;  // of a cube; names go by 32
 
-  static std::size_t index(Cell cell) { return cell - (32 - kPlaces) * (cell >> 5); }
-  std::uint8_t& state(Cell cell) { return state_[index(cell)]; }
-  std::uint8_t state(Cell cell) const { return state_[index(cell)]; }
+  std::uint8_t& state(Cell cell) { return states_[cell]; }
+  std::uint8_t state(Cell cell) const { return states_[cell]; }
 
   template <class Visit>
   void for_each_name(const Visit& visit) const {
     for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
-      for (std::uint32_t place = 0; place < kPlaces; ++place) visit(DualComplex::name(cube, place));
+      for (std::uint32_t place = 0; place < 27; ++place)
+        if (states_.may_own(cube, place)) visit(DualComplex::name(cube, place));
   }
 
   Cell coface_of(Cell cell) const {
@@ -114,31 +113,33 @@ class Collapsing {
 
   // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two
   // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.  Cofaces
-  // are found again, not kept: the queue is the largest array of a collapse.
+  // are found again, not kept: the queue is the largest array of a collapse.  What is free of a wave at first is when
+  // its turn comes.
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
     std::vector<Cell> contested;
     std::vector<std::pair<Cell, Cell>> rivals;  // coface first
-    for (std::vector<Cell> wave; queue_.pop_all(wave);) {
+    while (queue_.pop_wave()) {
       const double now = static_cast<double>(queue_.current()) * kStep;
-      std::erase_if(wave, [&](Cell cell) { return !is_free(cell); });
       contested.clear();
-      for (const Cell cell : wave) {
+      queue_.for_each_in_wave([&](Cell cell) {
+        if (!is_free(cell)) return;
         const Cell coface = coface_of(cell);
         if ((state(coface) & kClaimed) != 0) contested.push_back(coface);
         state(coface) |= kClaimed;
-      }
+      });
       for (const Cell coface : contested) state(coface) &= static_cast<std::uint8_t>(~kClaimed);
       rivals.clear();
-      for (const Cell cell : wave) {
+      queue_.for_each_in_wave([&](Cell cell) {
+        if (!is_free(cell)) return;
         stop.did(100);
         const Cell coface = coface_of(cell);
         if ((state(coface) & kClaimed) != 0)
           remove(cell, coface, now, rules);
         else
           rivals.emplace_back(coface, cell);
-      }
+      });
       std::sort(rivals.begin(), rivals.end());
       for (auto first = rivals.begin(), last = first; first != rivals.end(); first = last) {
         std::pair lowest(rules.level(first->second), first->second);
@@ -177,8 +178,8 @@ class Collapsing {
 
   const DualComplex& complex_;
   ExecutionContext* context_;
-  std::vector<std::uint8_t> state_;  // per place of a cube, at own names: these, and how many cofaces
-  BucketQueue<Cell> queue_;          // free when they came
+  CellBytes states_;         // at own names: these, and how many cofaces
+  BucketQueue<Cell> queue_;  // free when they came
 };
 
 }  // namespace affskel::core

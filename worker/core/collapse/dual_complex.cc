@@ -9,10 +9,17 @@
 namespace affskel::core {
 
 DualComplex::DualComplex(const Lattice& lattice)
-    : neighbour_(6 * std::size_t{lattice.points}, kNone), full_(lattice.points, 0b00010111) {
+    : neighbour_(4 * std::size_t{lattice.points}, kNone),
+      along_(lattice.points, 0),
+      full_(lattice.points, 0b00010111) {
   for_each_edge(lattice, [&](std::uint32_t low, std::uint32_t high, std::uint8_t axis, const auto&) {
-    neighbour_[6 * std::size_t{low} + 2 * axis + 1] = high;
-    neighbour_[6 * std::size_t{high} + 2 * axis] = low;
+    if (axis == 2) {
+      along_[low] = static_cast<std::uint8_t>(along_[low] | 4U);
+      along_[high] = static_cast<std::uint8_t>(along_[high] | 1U);
+      return;
+    }
+    neighbour_[4 * std::size_t{low} + 2 * axis + 1] = high;
+    neighbour_[4 * std::size_t{high} + 2 * axis] = low;
   });
   const auto up = [&](std::uint32_t cube, std::size_t axis) {
     return cube == kNone ? kNone : neighbour(cube, axis, 2);

@@ -36,14 +36,15 @@ class DualComplex {
   static constexpr std::uint32_t kUpperVertex = 26;  ///< of the vertex at the upper end of all axes
   static constexpr std::array<std::uint32_t, 3> kWeight{9, 3, 1};
 
-  /// O(points + runs); 25 bytes a point.
+  /// O(points + runs); 18 bytes a point.
   explicit DualComplex(const Lattice& lattice);
 
   std::uint32_t cubes() const { return static_cast<std::uint32_t>(full_.size()); }
 
   /// The cube glued to one at the lower (0) or upper (2) end of an axis, or kNone.
   std::uint32_t neighbour(std::uint32_t cube, std::size_t axis, std::uint32_t digit) const {
-    return neighbour_[6 * std::size_t{cube} + 2 * axis + (digit >> 1)];
+    if (axis < 2) return neighbour_[4 * std::size_t{cube} + 2 * axis + (digit >> 1)];
+    return (along_[cube] >> digit & 1U) != 0 ? cube + digit - 1 : kNone;
   }
 
   static std::uint32_t cube_of(Cell cell) { return static_cast<std::uint32_t>(cell >> 5); }
@@ -240,7 +241,9 @@ class DualComplex {
   Star star(std::uint32_t cube, std::uint32_t place) const;
   Cofaces cofaces(const Star& star) const;
 
-  std::vector<std::uint32_t> neighbour_;  // six per cube: axis 0 lower, upper, axis 1 lower, ...
+  std::vector<std::uint32_t> neighbour_;  // four per cube: axis 0 lower, upper, axis 1 lower, upper
+  std::vector<std::uint8_t>
+      along_;  // per cube: whether the one before (bit 0) and after (2) are glued, along axis 2
   // Per cube, bit `axes` (a set of them): the cubes up to one step up along these axes are all there and glued
   // to each other; set for one axis and none.
   std::vector<std::uint8_t> full_;
@@ -296,6 +299,60 @@ class CellValues {
   Value none_;
   std::vector<Value> usual_;
   std::unordered_map<DualComplex::Cell, Value> others_;
+};
+
+/// A byte for each cell, by its own name, first 0.  A cube with neighbours at the lower ends of all axes has no more for
+/// its own than the cells at its upper ends: most groups of cubes have room for these alone.
+class CellBytes {
+ public:
+  explicit CellBytes(const DualComplex& complex) {
+    std::uint32_t rows = 0;
+    for (std::uint32_t first = 0; first < complex.cubes(); first += kGroup) {
+      bool inner = true;
+      for (std::uint32_t cube = first; cube < std::min(first + kGroup, complex.cubes()); ++cube)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          inner = inner && complex.neighbour(cube, axis, 0) != DualComplex::kNone;
+      groups_.push_back({rows, inner ? kUpper : 27});
+      rows += groups_.back().places;
+    }
+    bytes_.assign(kGroup * std::size_t{rows}, 0);
+  }
+
+  /// Whether a place of a cube may be a cell's own.
+  bool may_own(std::uint32_t cube, std::uint32_t place) const {
+    return kSlot[place] < groups_[cube / kGroup].places;
+  }
+
+  std::uint8_t& operator[](DualComplex::Cell cell) { return bytes_[index(cell)]; }
+  std::uint8_t operator[](DualComplex::Cell cell) const { return bytes_[index(cell)]; }
+
+ private:
+  static constexpr std::uint32_t kGroup = 8;  // cubes
+  static constexpr std::uint32_t kUpper = 8;  // places of a cube that are at no lower end
+
+  // Of each place: those at no lower end first.
+  static constexpr std::array<std::uint8_t, 27> kSlot = [] {
+    std::array<std::uint8_t, 27> result{};
+    std::uint8_t upper = 0, other = kUpper;
+    for (std::uint32_t place = 0; place < 27; ++place) {
+      const bool lower = place / 9 == 0 || place / 3 % 3 == 0 || place % 3 == 0;
+      result[place] = lower ? other++ : upper++;
+    }
+    return result;
+  }();
+
+  std::size_t index(DualComplex::Cell cell) const {
+    const std::uint32_t cube = DualComplex::cube_of(cell);
+    const Group& group = groups_[cube / kGroup];
+    return kGroup * std::size_t{group.first} + group.places * (cube % kGroup) +
+           kSlot[DualComplex::place_of(cell)];
+  }
+
+  struct Group {
+    std::uint32_t first = 0, places = 0;  // of a cube; `first` counts those of groups before
+  };
+  std::vector<Group> groups_;
+  std::vector<std::uint8_t> bytes_;
 };
 
 /// Cells of a complex.

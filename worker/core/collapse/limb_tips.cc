@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <set>
 #include <utility>
@@ -38,10 +39,11 @@ class Thinning {
         least_reach_(least_reach),
         cuts_(cuts.begin(), cuts.end()) {}
 
-  std::vector<LimbTip> tips() const {
+  std::vector<LimbTip> tips() {
+    for (const Line& line : lines_) keep_tip(line);
+    std::sort(tips_.begin(), tips_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<LimbTip> result;
-    for (const Line& line : lines_)
-      if (line.tip.reach >= least_reach_) result.push_back(line.tip);
+    for (const auto& [begun, tip] : tips_) result.push_back(tip);
     return result;
   }
 
@@ -109,8 +111,9 @@ class Thinning {
     double tip_at = 0;  // length before that
     double whole = 0;   // of the chords
     std::array<int, 3> chord{};
-    bool begun = false;  // here no larger: lines are many
-    double time = 0;     // when it came to its end, from where, and along which edge
+    bool begun = false;
+    std::uint32_t order = 0;  // of those that begin
+    double time = 0;          // when it came to its end, from where, and along which edge
     Cell from = 0, edge = 0;
 
     double length() const {
@@ -141,18 +144,41 @@ class Thinning {
     const std::uint32_t number = std::exchange(line_at_[vertex], DualComplex::kNone);
     if (number == DualComplex::kNone) {
       const double radius = radius_at(vertex);
-      lines_.push_back({.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth},
-                        .rise = radius,
-                        .lead = birth});
-      return static_cast<std::uint32_t>(lines_.size() - 1);
+      return put({.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth},
+                  .rise = radius,
+                  .lead = birth,
+                  .order = begun_++});
     }
     return number;
+  }
+
+  // Where a line that is through has left its place, if one has: hardly one in ten is under way at a time.
+  std::uint32_t put(const Line& line) {
+    if (free_.empty()) {
+      lines_.push_back(line);
+      return static_cast<std::uint32_t>(lines_.size() - 1);
+    }
+    const std::uint32_t number = free_.back();
+    free_.pop_back();
+    lines_[number] = line;
+    return number;
+  }
+
+  void finish(std::uint32_t number) {
+    keep_tip(lines_[number]);
+    lines_[number].tip.reach = 0;
+    free_.push_back(number);
+  }
+
+  void keep_tip(const Line& line) {
+    if (line.tip.reach >= least_reach_) tips_.emplace_back(line.order, line.tip);
   }
 
   // Of several lines that meet at a vertex the last goes on; of those that come at once the one from the highest.
   void arrive(Cell end, std::uint32_t number) {
     std::uint32_t& last = line_at_[end];
-    if (last == DualComplex::kNone || is_later(lines_[number], lines_[last])) last = number;
+    if (last == DualComplex::kNone || is_later(lines_[number], lines_[last])) std::swap(last, number);
+    if (number != DualComplex::kNone) finish(number);
   }
   bool is_later(const Line& line, const Line& than) const {
     const auto key = [&](const Line& of) { return std::pair(level(of.from) + level(of.edge), of.from); };
@@ -168,7 +194,10 @@ class Thinning {
   double least_reach_;
   std::set<Cell> cuts_;
   std::vector<Cell> bared_cuts_;
-  std::vector<Line> lines_;
+  std::deque<Line> lines_;  // under way, and places that are free
+  std::vector<std::uint32_t> free_;
+  std::uint32_t begun_ = 0;
+  std::vector<std::pair<std::uint32_t, LimbTip>> tips_;                 // by which line
   CellValues<float> birth_{complex_, 1, 0};                             // of lone edges
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };

@@ -10,6 +10,10 @@
 namespace affskel::core {
 namespace {
 
+// Joints are one up to so many of the larger one's balls from each other: at 1 the hips of animals and elephants were one
+// joint or two, as noise would have it; at 1.5 the two ends of a jar's handle are one.
+constexpr double kTogether = 1.3;
+
 // Vertices, the first counted twice.
 constexpr std::size_t kLeastLoop = 4;
 
@@ -72,7 +76,8 @@ class Joints {
   void join(std::uint32_t n) {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
     if (ball(b) > ball(a)) std::swap(a, b);
-    if (a == b || distance(a, b) >= ball(a) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
+    if (a == b || distance(a, b) >= kTogether * ball(a) || !lies_in_balls(polylines_[n], a, b) ||
+        would_meet(n, a, b))
       return;
     gone_[n] = 1;
     std::replace(joint_.begin(), joint_.end(), b, a);

@@ -35,34 +35,43 @@ std::size_t number(const RowBand& band, const Place& place) {
   return static_cast<std::size_t>(band.at(place.i, place.j, place.k));
 }
 
-// What is asked for, and where sample points have a place outside beside them.
+// A sample point that has a place outside beside it.
+struct SurfacePoint {
+  Place place;
+  std::uint32_t rank;
+};
+
+// What is asked for, and the points of the surface by rank.
 struct Asked {
   RowBand band;
-  std::vector<Place> surface;
+  std::vector<SurfacePoint> surface;
 };
 
 // From reach + 1 at the sample points down, n - 1 at the places beside one of n; those above 0 are asked for.
-Asked find_asked(const RowBand& wide, const std::vector<Place>& points, std::span<const std::uint8_t> reach) {
+Asked find_asked(const Lattice& lattice, const RowBand& wide, std::span<const std::uint8_t> reach) {
   std::vector<std::uint8_t> asked(wide.places(), 0);
-  std::array<std::vector<Place>, kInside> asking;  // by n
-  for (std::uint32_t rank = 0; rank < reach.size(); ++rank) {
-    asked[number(wide, points[rank])] = static_cast<std::uint8_t>(kInside | (reach[rank] + 1));
-    asking[reach[rank] + 1U].push_back(points[rank]);
-  }
-  std::vector<Place> surface;
+  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    asked[number(wide, {i, j, k})] = static_cast<std::uint8_t>(kInside | (reach[rank] + 1));
+  });
+  std::vector<SurfacePoint> surface;
+  std::array<std::vector<Place>, kInside> asking;  // by n: most points lie among such as ask for as much
+  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    bool at_surface = false, asks = false;
+    for_each_neighbour(wide, {i, j, k}, [&](const Place&, std::size_t at) {
+      at_surface = at_surface || (asked[at] & kInside) == 0;
+      asks = asks || (asked[at] & ~kInside) < reach[rank];
+    });
+    if (asks) asking[reach[rank] + 1U].push_back({i, j, k});
+    if (at_surface) surface.push_back({{i, j, k}, rank});
+  });
   for (std::size_t n = asking.size(); n-- > 1; asking[n] = {}) {
     for (const Place& from : asking[n]) {
-      const std::uint8_t here = asked[number(wide, from)];
-      if ((here & ~kInside) > static_cast<int>(n)) continue;  // it has asked for more
-      bool at_surface = false;
+      if ((asked[number(wide, from)] & ~kInside) > static_cast<int>(n)) continue;  // it has asked for more
       for_each_neighbour(wide, from, [&](const Place& place, std::size_t at) {
-        const std::uint8_t inside = asked[at] & kInside;
-        at_surface = at_surface || inside == 0;
         if ((asked[at] & ~kInside) + 1 >= static_cast<int>(n)) return;
-        asked[at] = static_cast<std::uint8_t>(inside | (n - 1));
+        asked[at] = static_cast<std::uint8_t>((asked[at] & kInside) | (n - 1));
         asking[n - 1].push_back(place);
       });
-      if (at_surface && (here & kInside) != 0) surface.push_back(from);
     }
   }
   return {RowBand(wide, asked), std::move(surface)};
@@ -70,19 +79,22 @@ Asked find_asked(const RowBand& wide, const std::vector<Place>& points, std::spa
 
 class Continuation {
  public:
-  Continuation(std::vector<Place> points, Asked asked, std::span<const double> value,
+  Continuation(const Lattice& lattice, Asked asked, const std::function<double(std::uint32_t)>& value,
                const std::function<Vec3(std::uint32_t)>& gradient)
       : band_(std::move(asked.band)),
         value_(value),
         gradient_(gradient),
         nearest_(band_.places(), kUnknown),
         result_(band_.places(), 0.0F),
-        place_(std::move(points)),
-        front_(std::move(asked.surface)) {
-    for (std::uint32_t rank = 0; rank < place_.size(); ++rank) {
-      const std::size_t at = number(band_, place_[rank]);
-      nearest_[at] = rank;
-      result_[at] = static_cast<float>(value[rank]);
+        surface_(std::move(asked.surface)) {
+    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      const std::size_t at = number(band_, {i, j, k});
+      nearest_[at] = kDeep;
+      result_[at] = static_cast<float>(value(rank));
+    });
+    for (std::uint32_t n = 0; n < surface_.size(); ++n) {
+      front_.push_back(surface_[n].place);
+      nearest_[number(band_, surface_[n].place)] = n;
     }
   }
 
@@ -109,20 +121,20 @@ class Continuation {
     front_ = std::move(next);
   }
 
-  // Sets the value at a place and returns its nearest sample point, the one of least rank.
+  // Sets the value at a place and returns the point of the surface that is nearest, the first of several.
   std::uint32_t continue_to(const Place& to) {
     std::int32_t least = std::numeric_limits<std::int32_t>::max();
     std::array<std::uint32_t, 26> nearest;
     std::size_t count = 0;
     for_each_neighbour(band_, to, [&](const Place&, std::size_t at) {
-      const std::uint32_t rank = nearest_[at];
-      if (rank >= kPending) return;
-      const std::int32_t distance = squared_distance(to, place_[rank]);
+      const std::uint32_t point = nearest_[at];
+      if (point >= kDeep) return;
+      const std::int32_t distance = squared_distance(to, surface_[point].place);
       if (distance > least) return;
       if (distance < least) count = 0;
       least = distance;
-      if (std::find(nearest.begin(), nearest.begin() + count, rank) == nearest.begin() + count)
-        nearest[count++] = rank;
+      if (std::find(nearest.begin(), nearest.begin() + count, point) == nearest.begin() + count)
+        nearest[count++] = point;
     });
     std::sort(nearest.begin(), nearest.begin() + count);
     double sum = 0;
@@ -131,11 +143,12 @@ class Continuation {
     return nearest[0];
   }
 
-  double continued(std::uint32_t rank, const Place& to) const {
-    const Place& from = place_[rank];
+  double continued(std::uint32_t point, const Place& to) const {
+    const auto& [from, rank] = surface_[point];
     const Vec3 way{static_cast<double>(to.i - from.i), static_cast<double>(to.j - from.j),
                    static_cast<double>(to.k - from.k)};
-    return std::clamp(value_[rank] + dot(gradient_(rank), way), 0.0, value_[rank]);
+    const double value = value_(rank);
+    return std::clamp(value + dot(gradient_(rank), way), 0.0, value);
   }
 
   static std::int32_t squared_distance(const Place& a, const Place& b) {
@@ -143,29 +156,24 @@ class Continuation {
     return i * i + j * j + k * k;
   }
 
-  static constexpr std::uint32_t kPending = kUnknown - 1;
+  static constexpr std::uint32_t kPending = kUnknown - 1, kDeep = kUnknown - 2;
 
   RowBand band_;
-  std::span<const double> value_;
+  const std::function<double(std::uint32_t)>& value_;
   const std::function<Vec3(std::uint32_t)>& gradient_;
-  std::vector<std::uint32_t> nearest_;  // per place: a sample point, kPending or kUnknown
+  std::vector<std::uint32_t> nearest_;  // per place: of the surface, or of what is no place for it
   std::vector<float> result_;
-  std::vector<Place> place_;  // per sample point
+  std::vector<SurfacePoint> surface_;
   std::vector<Place> front_;
 };
 
 }  // namespace
 
-ContinuedField continued_field(const Lattice& lattice, std::span<const double> value,
+ContinuedField continued_field(const Lattice& lattice, const std::function<double(std::uint32_t)>& value,
                                const std::function<Vec3(std::uint32_t)>& gradient,
                                std::span<const std::uint8_t> reach) {
-  std::vector<Place> points(value.size());
-  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-    points[rank] = {i, j, k};
-  });
   const RowBand wide(lattice, std::max(1, std::int32_t{*std::max_element(reach.begin(), reach.end())}));
-  Asked asked = find_asked(wide, points, reach);
-  return Continuation(std::move(points), std::move(asked), value, gradient).run();
+  return Continuation(lattice, find_asked(lattice, wide, reach), value, gradient).run();
 }
 
 }  // namespace affskel::core

@@ -39,7 +39,7 @@ inline constexpr std::size_t kMaxLoops = 8;
 
 /// @param lattice of this solid.
 /// @param field of this lattice.
-/// @param threads up to two are of use; the result does not depend on it.
+/// @param threads >= 1; the result does not depend on it.
 /// @throws CoreError kCancelled when the context asks to stop.
 RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field,
                        unsigned threads = 1, ExecutionContext* context = nullptr,

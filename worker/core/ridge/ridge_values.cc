@@ -59,8 +59,13 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
   require_within(min_strength, 1e-6, kMaxRidgeStrength,
                  "the least strength of a ridge must lie between 1e-6 and 1000");
-  ridges_.reserve(derivatives.size());
-  for (const PointDerivatives& point : derivatives) ridges_.push_back(ridge_at(point, min_strength));
+  for (std::size_t p = 0; p < derivatives.size(); ++p) {
+    if (p % 32 == 0) groups_.push_back({0, static_cast<std::uint32_t>(ridges_.size())});
+    const PointRidge ridge = ridge_at(derivatives[p], min_strength);
+    if (ridge.least >= 0) continue;
+    groups_.back().has |= 1U << p % 32;
+    ridges_.push_back(ridge);
+  }
 }
 
 bool RidgeValues::is_deep(const SheetVertex& vertex) const {
@@ -83,7 +88,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
   double value = 0, least = 0, width = 0, radius = 0;
   for (std::size_t n = 0; n < points.size(); ++n) {
     const PointDerivatives& here = derivatives_[points[n]];
-    const PointRidge& ridge = ridges_[points[n]];
+    const PointRidge& ridge = this->ridge(points[n]);
     const double w = weights[n];
     gradient = gradient + w * vector_of(here.gradient);
     value += w * static_cast<double>(here.value);

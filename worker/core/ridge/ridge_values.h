@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -48,7 +50,13 @@ class RidgeValues {
               std::span<const float> radius, const DistanceToMesh& surface, double min_strength,
               const RidgeConstants& constants = {});
 
-  const PointRidge& ridge(std::uint32_t point) const { return ridges_[point]; }
+  const PointRidge& ridge(std::uint32_t point) const {
+    static constexpr PointRidge kNoRidge;
+    const Group& group = groups_[point / 32];
+    const std::uint32_t bit = 1U << point % 32;
+    if ((group.has & bit) == 0) return kNoRidge;
+    return ridges_[group.before + static_cast<std::uint32_t>(std::popcount(group.has & (bit - 1)))];
+  }
 
   /// grad P, per spacing.
   Vec3 gradient(std::uint32_t point) const;
@@ -77,8 +85,13 @@ class RidgeValues {
   const DistanceToMesh& surface_;
   RidgeConstants constants_;
   double min_strength_;
-  Matrix3 to_mesh_;                 // F^-T
-  std::vector<PointRidge> ridges_;  // per sample point
+  Matrix3 to_mesh_;  // F^-T
+  // Of 32 points: which have a ridge, and how many before them have.
+  struct Group {
+    std::uint32_t has = 0, before = 0;
+  };
+  std::vector<Group> groups_;
+  std::deque<PointRidge> ridges_;  // of points that have one
 };
 
 /// The entries of PointRidge and PointDerivatives as vectors.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/base/parallel.h"
 #include "core/base/plain_math.h"
 #include "core/base/require.h"
 #include "core/base/vec3.h"
@@ -62,38 +63,22 @@ float& entry(PointDerivatives& point, std::size_t a, std::size_t b, std::size_t 
   return point.hessian[b == 2 ? 3 : b == 1 ? 4 : 5];
 }
 
-// One Gaussian of the ladder, for some of the sample points.
+// One Gaussian of the ladder, for the sample points that ask for it: layer by layer across axis 0, so that between the
+// passes no more is kept than a layer.
 class LadderStep {
  public:
-  // weight: of this Gaussian at each sample point; 0 where it is not asked for.
-  LadderStep(const Lattice& lattice, const ContinuedField& field, double width, std::span<const float> weight)
-      : lattice_(lattice),
-        band_(field.band),
-        values_(field.values),
-        kernels_(kernels_of(width)),
-        weight_(weight) {
-    const auto rows = static_cast<std::size_t>(end(0)) * static_cast<std::size_t>(end(1));
-    asked_.assign(rows, {});
-    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-      if (weight[rank] == 0) return;
-      Interval& row = asked_[index(i, j)];
-      row = row.begin >= row.end ? Interval{k, k + 1} : Interval{row.begin, k + 1};
-    });
-  }
+  LadderStep(const Lattice& lattice, const ContinuedField& field, double width)
+      : lattice_(lattice), band_(field.band), values_(field.values), kernels_(kernels_of(width)) {}
 
-  void add_to(std::vector<PointDerivatives>& result, ExecutionContext* context) {
-    first_.assign(band_.places(), 0.0F);
-    second_.assign(band_.places(), 0.0F);
+  // @param layer the runs of one.
+  // @param weight weight(point): of this Gaussian at a sample point; 0 where it is not asked for.
+  template <class Weight>
+  void add_to(std::vector<PointDerivatives>& result, std::span<const LatticeRun> layer,
+              const Weight& weight) {
+    if (!ask(layer, weight)) return;
     for (std::size_t a = 0; a <= 2; ++a) {
-      throw_if_stopped(context);
       along_first_axis(kernels_.weight[a]);
-      for (std::size_t b = 0; a + b <= 2; ++b) {
-        along_second_axis(kernels_.weight[b]);
-        for (std::size_t c = a + b == 0 ? 1 : 0; a + b + c <= 2; ++c) {
-          at_points(kernels_.weight[c],
-                    [&](std::uint32_t rank, float value) { entry(result[rank], a, b, c) += value; });
-        }
-      }
+      for (const LatticeRun& points : layer) add_run(points, layer.front().first, a, result);
     }
   }
 
@@ -103,25 +88,39 @@ class LadderStep {
   };
 
   std::int32_t end(std::size_t axis) const { return static_cast<std::int32_t>(lattice_.grid.dims[axis]); }
-  std::size_t index(std::int32_t i, std::int32_t j) const {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(end(1)) + static_cast<std::size_t>(j);
+
+  // Notes what the points of a layer ask for. @return false when that is nothing.
+  template <class Weight>
+  bool ask(std::span<const LatticeRun> layer, const Weight& weight) {
+    layer_ = static_cast<std::int32_t>(layer.front().start[0]);
+    weight_.clear();
+    asked_.assign(static_cast<std::size_t>(end(1)), {});
+    bool any = false;
+    for (const LatticeRun& run : layer) {
+      Interval& row = asked_[run.start[1]];
+      for (std::uint32_t n = 0; n < run.length; ++n) {
+        weight_.push_back(weight(run.first + n));
+        if (weight_.back() == 0) continue;
+        const auto k = static_cast<std::int32_t>(run.start[2] + n);
+        row = row.begin >= row.end ? Interval{k, k + 1} : Interval{row.begin, k + 1};
+        any = true;
+      }
+    }
+    return any;
   }
 
-  // out += weight * the row of `in` at (i, j), between begin and end.
-  void add_row(const std::vector<float>& in, std::int32_t i, std::int32_t j, float weight, Interval span,
-               float* out, std::int64_t out_offset) const {
-    const RowBand::Row& row = band_.row(i, j);
+  // out += weight * a row that begins at `in`, between begin and end.
+  static void add_row(const float* in, const RowBand::Row& row, float weight, Interval span, float* out) {
     const std::int32_t first = std::max(span.begin, row.begin), last = std::min(span.end, row.end);
-    for (std::int32_t k = first; k < last; ++k)
-      out[out_offset + k] += weight * in[static_cast<std::size_t>(row.offset + k)];
+    for (std::int32_t k = first; k < last; ++k) out[k - span.begin] += weight * in[k - row.begin];
   }
 
-  // What the rows of layer i within reach of j, and the kernel along axis 2, will ask for.
-  Interval asked_round(std::int32_t i, std::int32_t j) const {
+  // What the rows of the layer within reach of j, and the kernel along axis 2, will ask for.
+  Interval asked_round(std::int32_t j) const {
     const std::int32_t reach = kernels_.reach;
     Interval result;
     for (std::int32_t m = std::max(j - reach, 0); m <= std::min(j + reach, end(1) - 1); ++m) {
-      const Interval& row = asked_[index(i, m)];
+      const Interval& row = asked_[static_cast<std::size_t>(m)];
       if (row.begin >= row.end) continue;
       result = result.begin >= result.end
                    ? row
@@ -133,85 +132,98 @@ class LadderStep {
 
   void along_first_axis(const std::vector<float>& weights) {
     const std::int32_t reach = kernels_.reach;
-    for (std::int32_t i = 0; i < end(0); ++i) {
-      for (std::int32_t j = -reach; j < end(1) + reach; ++j) {
-        const RowBand::Row& row = band_.row(i, j);
-        Interval span = asked_round(i, j);
-        span = {std::max(span.begin, row.begin), std::min(span.end, row.end)};
-        if (span.begin >= span.end) continue;
-        std::fill(first_.begin() + row.offset + span.begin, first_.begin() + row.offset + span.end, 0.0F);
-        for (std::int32_t m = -reach; m <= reach; ++m)
-          add_row(values_, i + m, j, weights[static_cast<std::size_t>(m + reach)], span, first_.data(),
-                  row.offset);
+    first_rows_.clear();
+    first_.clear();
+    for (std::int32_t j = -reach; j < end(1) + reach; ++j) {
+      const RowBand::Row& row = band_.row(layer_, j);
+      Interval span = asked_round(j);
+      span = {std::max(span.begin, row.begin), std::min(span.end, row.end)};
+      first_rows_.push_back({span.begin, span.end, std::ssize(first_)});
+      if (span.begin >= span.end) continue;
+      first_.resize(first_.size() + static_cast<std::size_t>(span.end - span.begin), 0.0F);
+      for (std::int32_t m = -reach; m <= reach; ++m) {
+        const RowBand::Row& from = band_.row(layer_ + m, j);
+        add_row(values_.data() + from.offset + from.begin, from, weights[static_cast<std::size_t>(m + reach)],
+                span, first_.data() + first_rows_.back().offset);
       }
     }
   }
 
-  void along_second_axis(const std::vector<float>& weights) {
-    const std::int32_t reach = kernels_.reach;
-    for (std::int32_t i = 0; i < end(0); ++i) {
-      for (std::int32_t j = 0; j < end(1); ++j) {
-        const Interval& row_asked = asked_[index(i, j)];
-        if (row_asked.begin >= row_asked.end) continue;
-        const Interval span{row_asked.begin - reach, row_asked.end + reach};
-        const RowBand::Row& row = band_.row(i, j);
-        std::fill(second_.begin() + row.offset + span.begin, second_.begin() + row.offset + span.end, 0.0F);
-        for (std::int32_t m = -reach; m <= reach; ++m)
-          add_row(first_, i, j + m, weights[static_cast<std::size_t>(m + reach)], span, second_.data(),
-                  row.offset);
-      }
+  // The points of a run, whose layer's first one is `first`, after a pass of order `a` along axis 0.
+  void add_run(const LatticeRun& run, std::uint32_t first, std::size_t a,
+               std::vector<PointDerivatives>& result) {
+    const std::span weights(weight_.begin() + (run.first - first), run.length);
+    if (std::all_of(weights.begin(), weights.end(), [](float weight) { return weight == 0; })) return;
+    const auto j = static_cast<std::int32_t>(run.start[1]), k = static_cast<std::int32_t>(run.start[2]);
+    const Interval span{k - kernels_.reach, k + static_cast<std::int32_t>(run.length) + kernels_.reach};
+    for (std::size_t b = 0; a + b <= 2; ++b) {
+      along_second_axis(kernels_.weight[b], j, span);
+      for (std::size_t c = a + b == 0 ? 1 : 0; a + b + c <= 2; ++c)
+        for (std::uint32_t n = 0; n < run.length; ++n)
+          if (weights[n] != 0)
+            entry(result[run.first + n], a, b, c) += weights[n] * at(n, kernels_.weight[c]);
     }
   }
 
-  template <class Take>
-  void at_points(const std::vector<float>& weights, Take take) const {
-    const std::int32_t reach = kernels_.reach;
-    for (const LatticeRun& run : lattice_.axis[2].runs) {
-      const RowBand::Row& row =
-          band_.row(static_cast<std::int32_t>(run.start[0]), static_cast<std::int32_t>(run.start[1]));
-      const float* at = second_.data() + row.offset + static_cast<std::int32_t>(run.start[2]) - reach;
-      for (std::uint32_t n = 0; n < run.length; ++n, ++at) {
-        const float share = weight_[run.first + n];
-        if (share == 0) continue;
-        float sum = 0;
-        for (std::size_t m = 0; m < weights.size(); ++m) sum += weights[m] * at[m];
-        take(run.first + n, share * sum);
-      }
+  void along_second_axis(const std::vector<float>& weights, std::int32_t j, Interval span) {
+    second_.assign(static_cast<std::size_t>(span.end - span.begin), 0.0F);
+    for (std::size_t m = 0; m < weights.size(); ++m) {
+      const RowBand::Row& from = first_rows_[static_cast<std::size_t>(j) + m];
+      add_row(first_.data() + from.offset, from, weights[m], span, second_.data());
     }
+  }
+
+  float at(std::size_t n, const std::vector<float>& weights) const {
+    float sum = 0;
+    for (std::size_t m = 0; m < weights.size(); ++m) sum += weights[m] * second_[n + m];
+    return sum;
   }
 
   const Lattice& lattice_;
   const RowBand& band_;
   const std::vector<float>& values_;
   Kernels kernels_;
-  std::span<const float> weight_;
-  std::vector<Interval> asked_;        // per row: the hull of the points
-  std::vector<float> first_, second_;  // per place, after the passes along axes 0 and 1
+  std::int32_t layer_ = 0;
+  std::vector<float> weight_;             // per sample point of the layer
+  std::vector<Interval> asked_;           // per row of it: the hull of the points
+  std::vector<float> first_;              // after the pass along axis 0: rows of the layer from -reach on
+  std::vector<RowBand::Row> first_rows_;  // where they are in it
+  std::vector<float> second_;             // after the pass along axis 1: about a run
 };
 
-// P and its exact gradient, per spacing, where E may be of any size.
+// The runs of each layer across axis 0.
+std::vector<std::span<const LatticeRun>> layers_of(const Lattice& lattice) {
+  std::vector<std::span<const LatticeRun>> layers;
+  const auto& runs = lattice.axis[2].runs;
+  for (auto run = runs.begin(); run != runs.end(); run += std::ssize(layers.back()))
+    layers.emplace_back(run, std::find_if(run, runs.end(), [&](const LatticeRun& other) {
+                          return other.start[0] != run->start[0];
+                        }));
+  return layers;
+}
+
+// P and its exact gradient, per spacing, where E may be of any size.  Not kept: memory is tightest here.
 class ScaledField {
  public:
   explicit ScaledField(const FrameField& field) : field_(field) {
     for (const double e : field.erosion)
       if (std::isfinite(e)) highest_ = std::max(highest_, e);
-    value_.reserve(field.erosion.size());
-    for (const double e : field.erosion)
-      value_.push_back(std::sqrt(std::isfinite(e) && highest_ > 0 ? e / highest_ : 0));
   }
 
-  const std::vector<double>& values() const { return value_; }
+  double value(std::uint32_t p) const {
+    const double e = field_.erosion[p];
+    return std::sqrt(std::isfinite(e) && highest_ > 0 ? e / highest_ : 0);
+  }
 
-  // Not kept: three numbers a point where memory is tightest.
   Vec3 gradient(std::uint32_t p) const {
-    if (value_[p] <= 0) return {};
-    return (0.5 / value_[p]) * ((field_.spacing / highest_) * field_.gradient[p]);
+    const double here = value(p);
+    if (here <= 0) return {};
+    return (0.5 / here) * ((field_.spacing / highest_) * field_.gradient[p]);
   }
 
  private:
   const FrameField& field_;
   double highest_ = 0;
-  std::vector<double> value_;
 };
 
 // Between the ladder's Gaussians `below` and the next: 1 at its own width, 0 at its neighbours'.
@@ -244,34 +256,38 @@ std::vector<std::uint8_t> reaches(const std::vector<float>& depth, const std::ve
 }  // namespace
 
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
-                                                   ExecutionContext* context,
+                                                   unsigned threads, ExecutionContext* context,
                                                    const RidgeConstants& constants) {
-  const std::vector<float> depth = local_depth(lattice, field);
+  std::vector<float> depth = local_depth(lattice, field);
   double widest = constants.min_width;
   for (const float d : depth) widest = std::max(widest, constants.width_at(static_cast<double>(d)));
   throw_if_stopped(context);
   std::vector<double> ladder{constants.min_width};
   while (ladder.back() < widest)
     ladder.push_back(std::min(ladder.back() * kLadderFactor, constants.max_width));
-  std::vector<float> value(depth.size());
-  const ContinuedField continued = [&] {
-    const ScaledField scaled(field);
-    for (std::size_t p = 0; p < value.size(); ++p) value[p] = static_cast<float>(scaled.values()[p]);
-    return continued_field(
-        lattice, scaled.values(), [&](std::uint32_t p) { return scaled.gradient(p); },
-        reaches(depth, ladder, constants));
-  }();
+  const ScaledField scaled(field);
+  const ContinuedField continued = continued_field(
+      lattice, [&](std::uint32_t p) { return scaled.value(p); },
+      [&](std::uint32_t p) { return scaled.gradient(p); }, reaches(depth, ladder, constants));
   std::vector<PointDerivatives> result(depth.size());  // not before: eleven numbers a point
-  for (std::size_t p = 0; p < result.size(); ++p) {
+  for (std::uint32_t p = 0; p < result.size(); ++p) {
     result[p].depth = depth[p];
-    result[p].value = value[p];
+    result[p].value = static_cast<float>(scaled.value(p));
   }
-  std::vector<float> weight(result.size());
+  std::vector<float>().swap(depth);
+  const std::vector<std::span<const LatticeRun>> layers = layers_of(lattice);
   for (std::size_t step = 0; step < ladder.size(); ++step) {
-    throw_if_stopped(context);
-    for (std::size_t p = 0; p < result.size(); ++p)
-      weight[p] = nearness(width_of(result[p], constants), ladder, step);
-    LadderStep(lattice, continued, ladder[step], weight).add_to(result, context);
+    const auto weight = [&](std::uint32_t p) {
+      return nearness(width_of(result[p], constants), ladder, step);
+    };
+    parallel_for(threads, threads,
+                 [&](std::size_t part) {  // layers of one remainder: they are unevenly large
+                   LadderStep gaussian(lattice, continued, ladder[step]);
+                   for (std::size_t n = part; n < layers.size(); n += threads) {
+                     throw_if_stopped(context);
+                     gaussian.add_to(result, layers[n], weight);
+                   }
+                 });
   }
   return result;
 }

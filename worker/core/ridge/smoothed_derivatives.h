@@ -33,11 +33,12 @@ struct PointDerivatives {
 /// never below 0 nor above its value there.  Where the surface bulges that is 0, as E's definition says; at
 /// saddles and hollows of the surface, where E is not 0, there is no false ridge a few spacings inside.
 /// @param field of this lattice.
+/// @param threads >= 1; the derivatives do not depend on it.
 /// @return per sample point.  A function of lattice and field alone.
 /// @param context asked at every step whether to stop.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
-                                                   ExecutionContext* context = nullptr,
+                                                   unsigned threads = 1, ExecutionContext* context = nullptr,
                                                    const RidgeConstants& constants = {});
 
 }  // namespace affskel::core

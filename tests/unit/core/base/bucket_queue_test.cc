@@ -32,7 +32,7 @@ TEST(BucketQueue, TakesItemsByNumberThenInTheOrderInWhichTheyCame) {
       push();
       std::vector<int> taken;
       if (turn % 3 == 0) {
-        queue.pop_all(taken);
+        if (queue.pop_wave()) queue.for_each_in_wave([&](int item) { taken.push_back(item); });
       } else {
         taken.resize(1);
         if (!queue.pop(taken[0])) taken.clear();

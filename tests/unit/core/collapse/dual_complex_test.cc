@@ -55,6 +55,24 @@ TEST(DualComplex, NamesCellsAlikeFromAllTheirCubes) {
   }
 }
 
+TEST(CellBytes, AreOneForEachCell) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const LatticeSolid solid(random_solid(seed), 0.15);
+    const DualComplex complex(solid.lattice);
+    CellBytes bytes(complex);
+    std::set<const std::uint8_t*> places;
+    std::size_t cells = 0;
+    complex.for_each_cell([&](Cell cell) {
+      EXPECT_TRUE(bytes.may_own(DualComplex::cube_of(cell), DualComplex::place_of(cell)));
+      EXPECT_EQ(bytes[cell], 0);
+      bytes[cell] = 1;
+      places.insert(&bytes[cell]);
+      ++cells;
+    });
+    EXPECT_EQ(places.size(), cells);
+  }
+}
+
 TEST(DualComplex, HasTheBettiNumbersOfTheSolid) {
   const auto of = [](const Mesh& mesh, double spacing) {
     return betti_numbers(DualComplex(LatticeSolid(mesh, spacing).lattice));

@@ -54,8 +54,8 @@ std::size_t count(const std::vector<std::uint32_t>& degrees, std::uint32_t which
   return static_cast<std::size_t>(std::count(degrees.begin(), degrees.end(), which));
 }
 
-TEST(JoinedLinks, JointsInOneBallBecomeOne) {
-  Fork fork(0.9);
+TEST(JoinedLinks, JointsInEachOthersBallsBecomeOne) {
+  Fork fork(1.9);  // less than 1.3 times the larger ball
   fork.ball[1] = 1.5;
   const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
   const auto degrees = fork.degrees(joined);
@@ -69,7 +69,7 @@ TEST(JoinedLinks, JointsInOneBallBecomeOne) {
 }
 
 TEST(JoinedLinks, JointsFartherApartStay) {
-  const Fork fork(1.1);
+  const Fork fork(1.35);
   const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
   EXPECT_EQ(joined.vertices, fork.lines.vertices);
   EXPECT_EQ(joined.segments, fork.lines.segments);

@@ -43,7 +43,8 @@ std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field
                                   float radius = 100, ExecutionContext* context = nullptr) {
   RidgeConstants narrow;
   narrow.min_width = narrow.max_width = 1;
-  const std::vector<PointDerivatives> derivatives = smoothed_derivatives(box.lattice, field, nullptr, narrow);
+  const std::vector<PointDerivatives> derivatives =
+      smoothed_derivatives(box.lattice, field, 1, nullptr, narrow);
   const std::vector<float> everywhere(box.lattice.points, radius);
   const Mesh wall = moved(make_box(1, 1, 1), {-1.5 * radius, 0, 0});  // lattice coordinates
   const DistanceToMesh nearest(wall);

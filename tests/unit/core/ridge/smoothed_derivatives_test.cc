@@ -44,7 +44,7 @@ TEST(SmoothedDerivatives, OfAQuadraticAreItsOwnAtAnyWidth) {
   for (const double width : {1.0, 2.0, 3.3}) {
     RidgeConstants constants;
     constants.min_width = constants.max_width = width;
-    const auto found = smoothed_derivatives(box.lattice, field, nullptr, constants);
+    const auto found = smoothed_derivatives(box.lattice, field, 1, nullptr, constants);
     for_each_point(box.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       // Where the kernel does not reach outside.
       if (std::min({i, j, k}) < 9 || std::max({i, j, k}) > 15) return;
@@ -66,7 +66,7 @@ TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
   RidgeConstants constants;
   constants.min_width = 1;
   constants.max_width = 3;
-  const auto found = smoothed_derivatives(box.lattice, field, nullptr, constants);
+  const auto found = smoothed_derivatives(box.lattice, field, 1, nullptr, constants);
   const std::vector<float> depth = local_depth(box.lattice, field);
   double least = 100, most = 0;
   for (std::size_t p = 0; p < found.size(); ++p) {
@@ -78,6 +78,17 @@ TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
   }
   EXPECT_EQ(least, 1);
   EXPECT_EQ(most, 3);
+}
+
+TEST(SmoothedDerivatives, DoNotDependOnTheNumberOfThreads) {
+  const BoxLattice box(15, 9, 11);
+  const FrameField field = field_of_branches(box.lattice, {Quadratic().branch()});
+  const auto found = smoothed_derivatives(box.lattice, field, 1),
+             same = smoothed_derivatives(box.lattice, field, 3);
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    EXPECT_EQ(found[p].gradient, same[p].gradient);
+    EXPECT_EQ(found[p].hessian, same[p].hessian);
+  }
 }
 
 // The same field in numbers near the end of the range of a double.
@@ -98,6 +109,10 @@ float at(const ContinuedField& field, std::int32_t i, std::int32_t j, std::int32
   return field.values[static_cast<std::size_t>(field.band.at(i, j, k))];
 }
 
+auto of(const std::vector<double>& values) {
+  return [&values](std::uint32_t point) { return values[point]; };
+}
+
 TEST(ContinuedField, GoesOnLinearlyButNeitherBelowZeroNorUp) {
   const BoxLattice box(4, 4, 4);
   // 5 at z = 3, falling outwards by 2 a step there; rising by 1 a step towards z = 0 and beyond.
@@ -107,7 +122,7 @@ TEST(ContinuedField, GoesOnLinearlyButNeitherBelowZeroNorUp) {
     value[rank] = 11 - 2 * k;
   });
   const ContinuedField found =
-      continued_field(box.lattice, value, gradient, std::vector<std::uint8_t>(64, 3));
+      continued_field(box.lattice, of(value), gradient, std::vector<std::uint8_t>(64, 3));
   EXPECT_EQ(at(found, 1, 2, 2), 7);
   EXPECT_EQ(at(found, 1, 2, 4), 3);
   EXPECT_EQ(at(found, 1, 2, 5), 1);
@@ -126,7 +141,8 @@ TEST(ContinuedField, TakesTheMeanOfPointsEquallyNear) {
     if (k > 3) value[rank] = 2;
   });
   const ContinuedField found = continued_field(
-      boxes.lattice, value, [](std::uint32_t) { return Vec3{}; }, std::vector<std::uint8_t>(value.size(), 2));
+      boxes.lattice, of(value), [](std::uint32_t) { return Vec3{}; },
+      std::vector<std::uint8_t>(value.size(), 2));
   ASSERT_EQ(at(found, 1, 1, 2), 8);
   ASSERT_EQ(at(found, 1, 1, 4), 2);
   EXPECT_EQ(at(found, 1, 1, 3), 5);
@@ -145,8 +161,8 @@ TEST(ContinuedField, GoesAsFarAsAnyPointReaches) {
     reach[p] = static_cast<std::uint8_t>((p * 31) % 97 == 0 ? 5 : 1);
   }
   const auto gradient = [](std::uint32_t) { return Vec3{0.25, -0.5, 0.125}; };
-  const auto whole = continued_field(boxes.lattice, value, gradient, std::vector<std::uint8_t>(count, 6));
-  const auto bounded = continued_field(boxes.lattice, value, gradient, reach);
+  const auto whole = continued_field(boxes.lattice, of(value), gradient, std::vector<std::uint8_t>(count, 6));
+  const auto bounded = continued_field(boxes.lattice, of(value), gradient, reach);
   std::size_t asked = 0;
   for_each_point(boxes.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
     const std::int32_t r = reach[rank];
