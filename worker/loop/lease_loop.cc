@@ -252,7 +252,8 @@ class LeaseLoop {
   }
 
   void dispatch(const v1::Lease& lease, TaskContext& context) {
-    if (lease.kind() != v1::TASK_KIND_ERODE || lease.job().id() != job_.id()) {
+    const bool in_blocks = lease.kind() == v1::TASK_KIND_ERODE || lease.kind() == v1::TASK_KIND_REFINE;
+    if (!in_blocks || std::exchange(kind_, lease.kind()) != lease.kind() || lease.job().id() != job_.id()) {
       const LeaseKeeper keeper(link_, lease, context);
       last_report_.wait();
     }
@@ -315,7 +316,7 @@ class LeaseLoop {
     const LeaseKeeper keeper(link_, lease, context);
     PreparedJob& job = obtain(lease, context);
     require_same_job(lease, job);
-    refine(lease, job, options_.threads, link_, context);
+    refine(lease, job, options_.threads, link_, context, last_report_, [&] { look_ahead(lease); });
   }
 
   Derived derive_in_time(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
@@ -374,8 +375,9 @@ class LeaseLoop {
   Clock::time_point last_work_ = Clock::now();
   JobInHand job_;
   Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
-  LastReport last_report_;         // uses job_
-  std::optional<v1::Lease> next_;  // taken ahead
+  LastReport last_report_;                         // uses job_
+  v1::TaskKind kind_ = v1::TASK_KIND_UNSPECIFIED;  // of the last block
+  std::optional<v1::Lease> next_;                  // taken ahead
 };
 
 }  // namespace

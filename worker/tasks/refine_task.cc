@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/infimum/refinement.h"
 #include "job/job_refinement.h"
+#include "link/lease_keeper.h"
 #include "wire/limits.h"
 
 namespace affskel::worker {
@@ -33,12 +35,14 @@ void append(const core::RefinedPoint& found, const SolidUnits& units, v1::Refine
 class RefineTask {
  public:
   RefineTask(const v1::Lease& lease, PreparedJob& job, unsigned threads, ServerLink& link,
-             TaskContext& context)
+             TaskContext& context, LastReport& last, const std::function<void()>& nearly_done)
       : lease_(lease),
         job_(job),
         refinement_(job.refinement(threads)),
         link_(link),
         context_(context),
+        last_(last),
+        nearly_done_(nearly_done),
         interval_(lease.report_interval_ms()),
         bite_(kFirstBite * threads) {}
 
@@ -50,12 +54,12 @@ class RefineTask {
       }
     } catch (const core::CoreError&) {
       if (context_.why() != TaskContext::Why::kWorkerStops) throw;
-      send(false);
+      send();
       wait();
       throw;
     }
-    if (!done_.empty() || lease_.positions().empty()) send(true);
     wait();
+    send_last();
   }
 
  private:
@@ -79,15 +83,18 @@ class RefineTask {
   void compute(core::PointRange range) {
     for (std::uint32_t at = range.begin; at < range.end;) {
       const core::PointRange bite{at, std::min(range.end, at + std::min(bite_, kMostBite))};
+      const bool last = bite.end == lease_.positions().rbegin()->end();
+      std::future<void> ahead;
+      if (last) ahead = std::async(std::launch::async, nearly_done_);
       const Clock::time_point begun = Clock::now();
       take(bite, find(bite));
+      if (last) ahead.get();
       const Clock::duration time = Clock::now() - begun;
       if (time < kShortBite) bite_ = std::min(kMostBite, 2 * bite_);
       if (time > kLongBite) bite_ = std::max(1U, bite_ / 2);
       at = bite.end;
-      const bool last = at == range.end && range.end == lease_.positions().rbegin()->end();
       const bool full = waiting_records_ + kMostBite > wire::kRecordsPerMessage;
-      if (!last && (full || Clock::now() >= next_report_)) send(false);
+      if (!last && (full || Clock::now() >= next_report_)) send();
     }
   }
 
@@ -112,22 +119,39 @@ class RefineTask {
   }
 
   // Sends what is done, once what was sent before is acknowledged.
-  void send(bool block_done) {
+  void send() {
     wait();
+    next_report_ = Clock::now() + interval_;
+    sent_ = std::async(std::launch::async, [this, report = take_report(false)] {
+      return link_.report(report->header, report->messages);
+    });
+  }
+
+  void send_last() {
+    last_.start(lease_.token(), [&link = link_, lease = lease_, report = take_report(true)] {
+      const LeaseKeeper still(link, lease);
+      link.report(report->header, report->messages);
+    });
+  }
+
+  struct Report {
     v1::ReportErosionHeader header;
+    std::vector<v1::ReportErosionRequest> messages;
+  };
+
+  // Of what is done and was not sent.
+  std::shared_ptr<const Report> take_report(bool block_done) {
+    auto report = std::make_shared<Report>();
+    v1::ReportErosionHeader& header = report->header;
     header.set_token(lease_.token());
     header.set_round(lease_.round());
     header.set_block_done(block_done);
     header.mutable_positions_done()->Assign(done_.begin(), done_.end());
-    std::vector<v1::ReportErosionRequest> messages;
-    if (waiting_records_ > 0) messages.emplace_back().mutable_refined()->Swap(&records_);
+    if (waiting_records_ > 0) report->messages.emplace_back().mutable_refined()->Swap(&records_);
     done_.clear();
     records_.Clear();
     waiting_records_ = 0;
-    next_report_ = Clock::now() + interval_;
-    sent_ = std::async(std::launch::async, [this, header, messages = std::move(messages)] {
-      return link_.report(header, messages);
-    });
+    return report;
   }
 
   void wait() {
@@ -143,6 +167,8 @@ class RefineTask {
   JobRefinement& refinement_;
   ServerLink& link_;
   TaskContext& context_;
+  LastReport& last_;
+  const std::function<void()>& nearly_done_;
   std::chrono::milliseconds interval_;
   std::uint32_t bite_;
   Clock::time_point next_report_ = Clock::now() + interval_;
@@ -155,8 +181,8 @@ class RefineTask {
 }  // namespace
 
 void refine(const v1::Lease& lease, PreparedJob& job, unsigned threads, ServerLink& link,
-            TaskContext& context) {
-  RefineTask(lease, job, threads, link, context).run();
+            TaskContext& context, LastReport& last, const std::function<void()>& nearly_done) {
+  RefineTask(lease, job, threads, link, context, last, nearly_done).run();
 }
 
 }  // namespace affskel::worker

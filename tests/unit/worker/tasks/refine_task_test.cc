@@ -45,7 +45,11 @@ class RefineTaskTest : public LinkTest {
   void run(const v1::Lease& lease) {
     ServerLink to_server = link();
     TaskContext context(stop_.get_token());
-    refine(lease, job_, 2, to_server, context);
+    refine(lease, job_, 2, to_server, context, last_, [this] {
+      done_before_told_ = positions(server_.reports()).size();
+      ++told_;
+    });
+    last_.wait();
   }
 
   static void append_to(std::string& bytes, const wire::RefinedPointRecord& record) {
@@ -87,6 +91,8 @@ class RefineTaskTest : public LinkTest {
   std::uint32_t points() const { return job_.lattice().points; }
 
   PreparedJob job_{limbed_mesh(), limbed_params()};
+  int told_ = 0;  // that a block is nearly done
+  std::size_t done_before_told_ = 0;
 };
 
 // Block by block and round by round, as a server leads it, against each round as a whole.
@@ -130,6 +136,12 @@ TEST_F(RefineTaskTest, CallsEveryPointDoneOnceAndTheBlockAtTheEnd) {
   const std::vector<std::uint64_t> done = positions(reports);
   ASSERT_EQ(done.size(), points() - 50U);
   for (std::uint64_t i = 0; i < done.size(); ++i) EXPECT_EQ(done[i], i < 100 ? i : i + 50);
+}
+
+TEST_F(RefineTaskTest, TellsOnceThatABlockIsNearlyDoneBeforeItsLastReport) {
+  run(refine_lease(0, 0, points()));
+  EXPECT_EQ(told_, 1);
+  EXPECT_LT(done_before_told_, points());
 }
 
 TEST_F(RefineTaskTest, AWorkerThatStopsReportsWhatIsDone) {
