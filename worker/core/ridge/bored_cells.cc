@@ -18,9 +18,9 @@ namespace {
 using Cell = DualComplex::Cell;
 
 // What may go of what is left: `graph` is that, collapsed as far as it can be.
-class Choice {
+class Openings {
  public:
-  Choice(const NoisySolid& solid, const CellSet& left, const CellSet& graph, const CellSet& keep)
+  Openings(const NoisySolid& solid, const CellSet& left, const CellSet& graph, const CellSet& keep)
       : solid_(solid), complex_(solid.complex), left_(left), graph_(graph), keep_(keep) {
     graph.for_each([&](Cell cell) {
       if (DualComplex::dimension(cell) == 2) squares_.push_back(cell);
@@ -116,9 +116,9 @@ BoredCells bored_cells(const NoisySolid& solid, const CellSet& left, std::span<c
   BoredCells result{{}, left};
   while (true) {
     const CellSet graph = collapsed(complex, result.left, {}, context);
-    const Choice choice(solid, result.left, graph, keep);
-    std::vector<Cell> cells = choice.squares();
-    if (cells.empty()) cells = choice.edges(context);
+    const Openings openings(solid, result.left, graph, keep);
+    std::vector<Cell> cells = openings.squares();
+    if (cells.empty()) cells = openings.edges(context);
     if (cells.empty()) return result;
     for (const Cell cell : cells) result.left.erase(cell);
     result.left = collapsed(complex, result.left, anchors, context);
