@@ -9,7 +9,9 @@ namespace {
 void run_server_info(Context& context) {
   const v1::ServerInfo info = context.session().server_info();
   context.console().result(server_details(info, unix_now_ms()));
-  context.console().document(to_json(info));
+  nlohmann::ordered_json document = to_json(info);
+  document["address"] = context.session().address();
+  context.console().document(document);
 }
 
 }  // namespace

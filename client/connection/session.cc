@@ -99,6 +99,7 @@ class Session::Link {
         policy_(std::move(policy)) {}
 
   const RetryPolicy& policy() const { return policy_; }
+  const std::string& target() const { return target_; }
   void notify(const Notice& notice) const {
     if (listener_) listener_(notice);
   }
@@ -320,6 +321,10 @@ std::string Session::delete_job(const std::string& job) {
 
 v1::ServerInfo Session::server_info() {
   return link_->unary(v1::GetServerInfoRequest(), &Link::Stub::GetServerInfo);
+}
+
+std::string Session::address() const {
+  return link_->target();
 }
 
 void Session::Link::require_health() {

@@ -79,6 +79,8 @@ class Session {
   /// What happened to the job, oldest first.
   v1::ListJobEventsResponse job_events(const std::string& job);
   v1::ServerInfo server_info();
+  /// The address of the server that was called last, as gRPC and --server take it; empty before the first call.
+  std::string address() const;
   /// Asks the server's health service, once: for a check that is repeated by others.
   /// @throws ClientError kUnreachable when it does not answer within 3 s, or answers that it does not serve.
   void require_health();

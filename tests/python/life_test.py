@@ -339,7 +339,7 @@ class Errors(WithDirectory):
         said = json.loads(self.directory.client("--server", server.address, "--json", "server-info"))
         ours = client.server_info()
         self.assertEqual(set(ours), set(said))
-        for name in ("version", "started_ms", "pid", "data_dir", "workers", "jobs_queued", "schema_version", "caller"):
+        for name in ("address", "version", "started_ms", "pid", "data_dir", "workers", "jobs_queued", "schema_version", "caller"):
             self.assertEqual(ours[name], said[name], name)
 
     def test_lists_longer_than_one_answer_are_whole(self):

@@ -208,7 +208,7 @@ class Client:
         return [Job(self._session, job.id, seen=status_of(job)) for job in self._session.list_jobs(request, limit)]
 
     def server_info(self) -> Dict[str, Any]:
-        """Version, workers and queue of the server, by the names of ServerInfo in the contract.
+        """Version, workers and queue of the server, by the names of ServerInfo in the contract, and its address.
 
         Raises:
             UnreachableError: no server answers.
@@ -216,7 +216,9 @@ class Client:
         Example:
             >>> affskel.server_info()["version"]
         """
-        return plain(self._session.server_info())
+        info = plain(self._session.server_info())
+        info["address"] = self._session.address()
+        return info
 
     @staticmethod
     def _header(spacing: Union[float, str, None], points: Optional[int], directions: str, minimum: str,

@@ -79,11 +79,9 @@ def private_server() -> Address:
     info = run_program(Settings(), ["server-info"],
                        "no server is configured: name one with server=..., or let affskel-client start a private one",
                        UnreachableError)
-    file = Path(info["data_dir"]) / "server.json"
-    try:
-        return parse_address(json.loads(file.read_text(encoding="utf-8"))["addresses"][0])
-    except (OSError, ValueError, LookupError) as error:  # it has just left, being idle
-        raise UnreachableError(f"the private server left its data directory: {error}") from error
+    if "address" not in info:
+        raise UnreachableError(f"{PROGRAM} is older than this package: update it, or name a server with server=...")
+    return parse_address(info["address"])
 
 
 def page(settings: Settings, job: str, options: Sequence[str]) -> str:

@@ -85,6 +85,10 @@ class Session:
         """The settings with the address in use; that of the private server once it is known."""
         return self._connect().settings
 
+    def address(self) -> str:
+        """Of the server in use, as `server=` takes it."""
+        return self._connect().target
+
     def close(self) -> None:
         try:
             check_process()
