@@ -43,8 +43,8 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
     const CellPlace cell = cells_of_vertices(lattice, {&tip.vertex, 1}).front();
     const Vec3 place{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
                      static_cast<double>(cell[2]) + 0.5};
-    possible.push_back(tip.length <= longest && crossing.nearest(place) <=
-                                                    radius_about(limbs.complex, limbs.radius, tip.vertex) + 1);
+    possible.push_back(tip.length <= longest &&
+                       crossing.nearest(place) <= radius_about(limbs.complex, limbs.radius, tip.vertex) + 1);
   }
   return possible;
 }
@@ -61,8 +61,7 @@ std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet
   for (const LimbTip& tip : limbs.tips) {
     const auto stands_on = [&](std::uint32_t cube, float way) {
       const double spike = longest_spike(limbs.thickness[cube], constants);
-      return has_skeleton[cube] != 0 && tip.length <= spike &&
-             static_cast<double>(way) <= tip.length + spike;
+      return has_skeleton[cube] != 0 && tip.length <= spike && static_cast<double>(way) <= tip.length + spike;
     };
     if (!is_near(limbs.complex, tip.vertex, static_cast<float>(tip.length + longest), stands_on))
       result.push_back(tip);
