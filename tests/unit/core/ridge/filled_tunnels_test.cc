@@ -38,7 +38,7 @@ Filled filled(const Mesh& mesh, double spacing) {
   result.complex = betti_numbers(complex);
   result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left).number;
   const CellMesh cells = mesh_of_cells(complex, left);
-  result.skeleton = sheet_topology(cells.mesh, cells.segments).betti;
+  result.skeleton = sheet_betti_numbers(cells.mesh, cells.segments);
   return result;
 }
 
