@@ -19,7 +19,7 @@ std::vector<std::size_t> lengths(const Mesh& mesh, double spacing, std::size_t c
   const DualComplex complex(solid.lattice);
   std::vector<std::size_t> result;
   for (const auto& loop : shortest_loops(complex, collapse(complex, {}).cells, count))
-    result.push_back(loop.size());
+    result.push_back(loop.edges.size());
   return result;
 }
 
