@@ -36,6 +36,9 @@ struct SheetMesh {
   std::vector<Segment> segments;  ///< of curves: two vertices each
 };
 
+/// Of the vertices.
+std::vector<Vec3> positions(const SheetMesh& sheet);
+
 /// Points and triangles alone.
 Mesh mesh_of(const SheetMesh& sheet);
 

@@ -55,6 +55,9 @@ using Adjacency = Groups<std::uint32_t>;
 
 Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles);
 
+/// Of every vertex the other ends of its segments, in their order.
+Adjacency neighbours(std::size_t points, std::span<const Segment> segments);
+
 /// The triangles of every vertex, ascending.
 Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles);
 

@@ -28,9 +28,7 @@ std::vector<char> noisy_limbs(const Solid& solid, const Mesh& walls, const Latti
   std::vector<char> noisy;
   noisy.reserve(limbs.size());
   for (const LimbTip& tip : limbs) {
-    const CellPlace cell = cells_of_vertices(lattice, {&tip.vertex, 1}).front();
-    const Vec3 place{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
-                     static_cast<double>(cell[2]) + 0.5};
+    const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
     noisy.push_back(crossing.nearest(place) <= radius_about(complex, radius, tip.vertex) + 1);
   }
   return noisy;

@@ -179,11 +179,14 @@ class Choice {
     for (const Anchor& anchor : result_.anchors)
       for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     const auto reached = [&](std::uint32_t cube, float) { return anchored[cube] != 0; };
+    const float thickest = evidence_.thickness.empty()
+                               ? 0
+                               : *std::max_element(evidence_.thickness.begin(), evidence_.thickness.end());
     for (std::size_t n = 0; n < evidence_.limbs.size(); ++n) {
       const LimbTip& tip = evidence_.limbs[n];
       if (taken_.has(tip.vertex) ||
           is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), reached) ||
-          (!evidence_.noisy.empty() && evidence_.noisy[n] && is_spike(tip, anchored)))
+          (!evidence_.noisy.empty() && evidence_.noisy[n] && is_spike(tip, anchored, thickest)))
         continue;
       take({tip.vertex, 0});
       ++result_.limbs;
@@ -191,17 +194,15 @@ class Choice {
   }
 
   // Whether a limb no longer than the one that it stands on is thick ends no farther than that from what is anchored.
-  bool is_spike(const LimbTip& tip, const std::vector<char>& anchored) const {
-    const auto ends_in = [&](std::uint32_t cube, float way) {
-      const double thick =
-          constants_.end_spacings + constants_.end_radii * static_cast<double>(evidence_.thickness[cube]);
-      return anchored[cube] != 0 && std::max(tip.length, static_cast<double>(way)) <= thick;
+  bool is_spike(const LimbTip& tip, const std::vector<char>& anchored, float thickest) const {
+    const auto reach = [&](float thickness) {
+      return constants_.end_spacings + constants_.end_radii * static_cast<double>(thickness);
     };
-    const float thickest = *std::max_element(evidence_.thickness.begin(), evidence_.thickness.end());
-    return is_near(
-        complex_, tip.vertex,
-        static_cast<float>(constants_.end_spacings + constants_.end_radii * static_cast<double>(thickest)),
-        ends_in);
+    const auto ends_in = [&](std::uint32_t cube, float way) {
+      return anchored[cube] != 0 &&
+             std::max(tip.length, static_cast<double>(way)) <= reach(evidence_.thickness[cube]);
+    };
+    return is_near(complex_, tip.vertex, static_cast<float>(reach(thickest)), ends_in);
   }
 
   // How far from a tip what is anchored may end: so far from the surface, which is the tip's own radius farther away.
