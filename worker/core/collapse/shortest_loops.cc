@@ -1,6 +1,5 @@
 #include "core/collapse/shortest_loops.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <unordered_map>

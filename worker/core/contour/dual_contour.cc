@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "core/base/matrix3.h"
 #include "core/base/symmetric_eigen.h"

@@ -9,6 +9,7 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
+#include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"

@@ -1,7 +1,6 @@
 #include "core/curve/hanging_patches.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <utility>
 

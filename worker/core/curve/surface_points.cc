@@ -1,6 +1,5 @@
 #include "core/curve/surface_points.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "core/base/unit.h"

@@ -1,7 +1,6 @@
 #include "core/curve/zipped_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "core/base/groups.h"
 #include "core/base/parallel.h"

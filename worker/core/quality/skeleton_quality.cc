@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
-#include <utility>
 
 #include "core/lattice/lattice_coordinates.h"
 #include "core/quality/chance_level.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/parity_rows.h"
+#include "core/collapse/collapse.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/collapse/collapse.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/quality/sheet_topology.h"
 #include "core/ridge/local_depth.h"
