@@ -8,7 +8,6 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
-#include "core/collapse/shortest_ways.h"
 
 namespace affskel::core {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
-#include "core/collapse/collapse.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
+#include "core/collapse/shortest_ways.h"
 #include "core/contour/edge_cells.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"

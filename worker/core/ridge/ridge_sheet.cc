@@ -12,6 +12,7 @@
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/dual_contour.h"
 #include "core/contour/edge_cells.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/solid_parts.h"
 #include "core/mesh/box.h"
 #include "core/mesh/laplacian.h"
@@ -33,14 +34,6 @@ struct Found {
   std::vector<RidgeCrossing> crossings;
   std::vector<RidgeCurve> curves;
 };
-
-// Lattice coordinates.
-Mesh mesh_in_lattice(const Solid& solid, const Lattice& lattice) {
-  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
-  Mesh mesh = solid.mesh;
-  for (Vec3& place : mesh.points) place = transposed_times(to_indices, place - lattice.grid.origin);
-  return mesh;
-}
 
 Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
                   const DistanceToMesh& nearest, const DistanceToMesh* smoothed,
@@ -101,14 +94,10 @@ void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet
 std::vector<LatticeLoop> loops_of(const Lattice& lattice, const DualComplex& complex, const CellSet& thinned,
                                   ExecutionContext* context) {
   std::vector<LatticeLoop> result;
-  for (std::vector<DualComplex::Cell>& vertices : shortest_loops(complex, thinned, kMaxLoops, context)) {
-    std::sort(vertices.begin(), vertices.end());
+  for (const CellLoop& loop : shortest_loops(complex, thinned, kMaxLoops, context)) {
     Box box;
-    for (const CellPlace& cell : cells_of_vertices(lattice, vertices))
-      box.include(
-          Vec3{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])});
-    const Vec3 middle = 0.5 * (box.lowest() + box.highest()) + Vec3{0.5, 0.5, 0.5};
-    result.push_back({lattice.spacing * middle, norm(box.sides())});
+    for (const CellPlace& cell : cells_of_vertices(lattice, loop.vertices)) box.include(middle_of(cell));
+    result.push_back({lattice.spacing * (0.5 * (box.lowest() + box.highest())), norm(box.sides())});
   }
   return result;
 }
@@ -166,7 +155,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   if (basis.derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
   const SolidParts parts(solid, lattice);
-  const Mesh walls = mesh_in_lattice(solid, lattice);
+  const Mesh walls = surface_in_lattice(solid, lattice);
   const DistanceToMesh nearest(walls);
   Mesh without_noise;
   std::optional<DistanceToMesh> smoothed;

@@ -96,9 +96,4 @@ class RidgeValues {
   std::deque<PointRidge> ridges_;  // of points that have one
 };
 
-/// The entries of PointRidge and PointDerivatives as vectors.
-inline Vec3 vector_of(const std::array<float, 3>& v) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 }  // namespace affskel::core

@@ -40,9 +40,7 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
   for (const LimbTip& tip : limbs.tips) {
-    const CellPlace cell = cells_of_vertices(lattice, {&tip.vertex, 1}).front();
-    const Vec3 place{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
-                     static_cast<double>(cell[2]) + 0.5};
+    const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
     possible.push_back(tip.length <= longest &&
                        crossing.nearest(place) <= radius_about(limbs.complex, limbs.radius, tip.vertex) + 1);
   }

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/base/matrix3.h"
 #include "core/collapse/lattice_solids.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/local_depth.h"
 #include "core/shapes/shapes.h"
 
@@ -32,13 +32,7 @@ struct Beam {
 
   SpikyLimbs limbs() const { return {complex, radius, thickness, tips}; }
 
-  // In lattice coordinates.
-  Mesh walls() const {
-    const LatticeGrid& grid = solid.lattice.grid;
-    Mesh mesh = solid.solid.mesh;
-    for (Vec3& p : mesh.points) p = transposed_times(inverse_transposed(grid.axes), p - grid.origin);
-    return mesh;
-  }
+  Mesh walls() const { return surface_in_lattice(solid.solid, solid.lattice); }
 
   // The last tip's vertex alone.
   CellSet skeleton() const {
