@@ -35,13 +35,17 @@ std::vector<Range> joined(std::vector<Range> ranges) {
   return result;
 }
 
-/// Records come sorted by point, so most have a direction that was seen a moment ago.
-std::vector<std::uint32_t> directions_in(const std::vector<wire::PointRecord>& records) {
+/// Ascending, of `count` that there are.  Those of a first report are as many as the points, so that only what is new
+/// is kept to be sorted.
+std::vector<std::uint32_t> directions_in(const std::vector<wire::PointRecord>& records, std::int64_t count) {
+  std::vector<bool> seen(static_cast<std::size_t>(count));
   std::vector<std::uint32_t> directions;
-  directions.reserve(records.size());
-  for (const wire::PointRecord& record : records) directions.push_back(record.direction);
+  for (const wire::PointRecord& record : records) {
+    if (seen[record.direction]) continue;
+    seen[record.direction] = true;
+    directions.push_back(record.direction);
+  }
   std::sort(directions.begin(), directions.end());
-  directions.erase(std::unique(directions.begin(), directions.end()), directions.end());
   return directions;
 }
 
@@ -84,7 +88,7 @@ void note_given(Database& db, const JobRow& job, const Giver& giver, const std::
   if (!records.empty()) {
     const DirectionPositions positions(
         job.directions, db.integer("SELECT stride FROM erosions WHERE id = ?", job.erosion_id).value_or(1));
-    for (const std::uint32_t direction : directions_in(records)) {
+    for (const std::uint32_t direction : directions_in(records, job.directions)) {
       const std::int64_t position = positions.position(direction);
       all.push_back({position, position + 1});
     }
