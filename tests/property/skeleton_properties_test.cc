@@ -186,10 +186,13 @@ RC_GTEST_PROP(SkeletonProperties, RidgeHasTheTopologyOfTheLattice, ()) {
   const core::ErodedSolid eroded = eroded_of(mesh_of(draw_union(), 0), 0.2);
   const core::RidgeBasis basis = core::ridge_basis(eroded.solid, eroded.lattice, eroded.field);
   const core::RidgeSheet ridge = ridge_of(eroded, basis);
-  Topology expected = topology(basis.topology);
+  Topology expected = topology(ridge.lattice);
   expected[0] -= ridge.fragments;
-  expected[1] -= ridge.filled.number;
   RC_ASSERT(topology(ridge) == expected);
+  if (eroded.solid.self_intersecting) return;  // what noise has bored is filled
+  expected = topology(basis.topology);
+  expected[1] -= ridge.filled.number;
+  RC_ASSERT(topology(ridge.lattice) == expected);
 }
 
 }  // namespace
