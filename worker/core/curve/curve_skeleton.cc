@@ -225,7 +225,8 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   std::vector<double> balls;
   for (const SheetVertex& vertex : curve.vertices) {
     places.push_back(vertex.position);
-    balls.push_back(distance.nearest(vertex.position));
+    balls.push_back(
+        sections.thickness(vertex.position, LimbSections::kSeen * distance.nearest(vertex.position)));
   }
   const Groups<std::uint32_t> neighbours = neighbours_along(places.size(), curve.segments);
   const double one = 1 / static_cast<double>(lattice.points);
@@ -270,8 +271,9 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
   lines = sheet_lines(ridge, ends.is_end, options.context);
-  lines = pruned_lines(lines, places, thickness_along(surface, lines, places, balls), options.context);
-  lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
+  const std::vector<double> thickness = thickness_along(surface, lines, places, balls);
+  lines = pruned_lines(lines, places, thickness, options.context);
+  lines = with_joints(lines, ends.is_end, thickness, lattice.spacing, places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
