@@ -35,7 +35,7 @@ CurveSkeleton curve_of(const Job& job) {
   for (const core::SheetVertex& vertex : found.vertices)
     curve.points.push_back(origin + frame * vertex.position);
   curve.segments = found.segments;
-  curve.betti = core::sheet_topology(core::mesh_of(found), found.segments).betti;
+  curve.betti = core::sheet_betti_numbers(core::mesh_of(found), found.segments);
   return curve;
 }
 

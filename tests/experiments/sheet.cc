@@ -44,7 +44,7 @@ Sheet chord_sheet_of(const Job& job) {
   for (const core::SheetVertex& vertex : found.vertices)
     sheet.mesh.points.push_back(in_frame.to_mesh(vertex.position));
   sheet.mesh.triangles = found.triangles;
-  sheet.betti = core::sheet_topology(sheet.mesh).betti;
+  sheet.betti = core::sheet_betti_numbers(sheet.mesh);
   return sheet;
 }
 
@@ -60,7 +60,7 @@ Sheet ridge_sheet_of(const Job& job) {
     if (kind == core::SkeletonKind::kRidge || kind == core::SkeletonKind::kCurve)
       sheet.strong.push_back(sheet.points.place[v]);
   }
-  sheet.betti = core::sheet_topology(sheet.mesh, sheet.segments).betti;
+  sheet.betti = core::sheet_betti_numbers(sheet.mesh, sheet.segments);
   return sheet;
 }
 

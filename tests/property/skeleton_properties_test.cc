@@ -159,7 +159,7 @@ Topology topology(const BettiNumbers& betti) {
 }
 
 Topology topology(const core::SheetMesh& skeleton) {
-  return topology(core::sheet_topology(core::mesh_of(skeleton), skeleton.segments).betti);
+  return topology(core::sheet_betti_numbers(core::mesh_of(skeleton), skeleton.segments));
 }
 
 core::RidgeSheet ridge_of(const core::ErodedSolid& eroded, const core::RidgeBasis& basis) {

@@ -14,7 +14,6 @@
 #include <memory>
 
 #include "core/barrier/lowest_pass.h"
-#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/require.h"
 #include "core/base/unit.h"

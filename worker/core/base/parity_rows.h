@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,9 +13,11 @@ namespace affskel::core {
 /// A set, ascending: a vector over the field of two elements.
 using ParityRow = std::vector<std::uint32_t>;
 
-/// The sum modulo 2: what is in one of them alone.
-inline ParityRow parity_sum(const ParityRow& a, const ParityRow& b) {
-  ParityRow result;
+/// The sum modulo 2 of two sets, ascending: what is in one of them alone.
+template <class Member>
+std::vector<Member> parity_sum(const std::vector<Member>& a,
+                               const std::type_identity_t<std::vector<Member>>& b) {
+  std::vector<Member> result;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
   return result;
 }

@@ -49,10 +49,7 @@ void clamp_to_edge(const FrameField& field, ChordShock& shock) {
   const EdgeValue at_x = end_value(field, shock.point, shock.axis);
   shock.t = shock.strength > 0 ? std::clamp(shock.t, 0.0, 1.0) : 0.5;
   shock.erosion = shock.t < 1 ? at_x.erosion + shock.t * at_x.slope : field.erosion[shock.upper];
-  std::array<double, 3> u{};
-  for (std::size_t k = 0; k < 3; ++k) u[k] = shock.place[k];
-  u[shock.axis] += shock.t;
-  shock.position = field.spacing * Vec3{u[0], u[1], u[2]};
+  shock.position = field.spacing * (vector_of(shock.place) + shock.t * kIdentity3[shock.axis]);
 }
 
 }  // namespace affskel::core

@@ -9,7 +9,6 @@
 #include "core/chords/chord_pruning.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 

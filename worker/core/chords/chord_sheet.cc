@@ -1,8 +1,6 @@
 #include "core/chords/chord_sheet.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>

@@ -26,7 +26,6 @@
 #include "core/chords/chord_turns.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/unit.h"

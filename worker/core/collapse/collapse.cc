@@ -1,7 +1,6 @@
 #include "core/collapse/collapse.h"
 
 #include <algorithm>
-#include <array>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -122,10 +121,8 @@ std::uint64_t count_components(const DualComplex& complex, const CellSet& cells)
   std::uint64_t components = number.size();
   cells.for_each([&](Cell cell) {
     if (DualComplex::dimension(cell) != 1) return;
-    std::array<std::uint32_t, 2> ends{};
-    std::size_t n = 0;
-    complex.for_each_face(cell, [&](Cell vertex) { ends[n++] = number.at(vertex); });
-    if (sets.unite(ends[0], ends[1])) --components;
+    const auto [a, b] = complex.ends(cell);
+    if (sets.unite(number.at(a), number.at(b))) --components;
   });
   return components;
 }

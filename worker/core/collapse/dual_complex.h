@@ -79,6 +79,14 @@ class DualComplex {
     }
   }
 
+  /// The lower and the upper vertex of an edge.
+  std::array<Cell, 2> ends(Cell edge) const {
+    std::array<Cell, 2> found{};
+    std::size_t n = 0;
+    for_each_face(edge, [&](Cell vertex) { found[n++] = vertex; });
+    return found;
+  }
+
   /// The cubes about a cell, and its place in each.
   struct Star {
     struct Member {
@@ -190,51 +198,26 @@ class DualComplex {
                        static_cast<std::uint8_t>(place % 3)};
     return digits;
   }();
-  static constexpr std::array<std::uint8_t, 27> kDimension = [] {
-    std::array<std::uint8_t, 27> result{};
-    for (std::size_t place = 0; place < 27; ++place)
-      for (const std::uint8_t d : kDigits[place])
-        if (d == 1) ++result[place];
-    return result;
-  }();
 
-  // Per place: the axes (a set) on which it lies at an end of the cube; those of the lower end; the same
-  // place at the upper ends; and where, beyond the lower ends alone, the lowest cube about it lies.
-  static constexpr std::array<std::uint8_t, 27> kAcross = [] {
-    std::array<std::uint8_t, 27> result{};
+  // Per place the sum of term(axis, digit) over the axes.
+  static constexpr auto per_place = [](const auto& term) {
+    std::array<std::uint8_t, 27> sums{};
     for (std::size_t place = 0; place < 27; ++place)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        if (kDigits[place][axis] != 1) result[place] = static_cast<std::uint8_t>(result[place] | 1U << axis);
-    return result;
-  }();
-  static constexpr std::array<std::uint8_t, 27> kLower = [] {
-    std::array<std::uint8_t, 27> result{};
-    for (std::size_t place = 0; place < 27; ++place)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (kDigits[place][axis] == 0) result[place] = static_cast<std::uint8_t>(result[place] | 1U << axis);
-    return result;
-  }();
-  static constexpr std::array<std::uint8_t, 27> kRaised = [] {
-    std::array<std::uint8_t, 27> result{};
-    for (std::size_t place = 0; place < 27; ++place) {
-      std::uint32_t raised = 0;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        raised += kWeight[axis] * (kDigits[place][axis] == 1 ? 1U : 2U);
-      result[place] = static_cast<std::uint8_t>(raised);
-    }
-    return result;
-  }();
-
-  static constexpr std::array<std::uint8_t, 27> kLowest = [] {
-    std::array<std::uint8_t, 27> result{};
-    for (std::size_t place = 0; place < 27; ++place) {
-      std::uint32_t lowest = 0;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        lowest += kWeight[axis] * (kDigits[place][axis] == 0 ? 0U : 1U);
-      result[place] = static_cast<std::uint8_t>(lowest);
-    }
-    return result;
-  }();
+        sums[place] = static_cast<std::uint8_t>(sums[place] + term(axis, kDigits[place][axis]));
+    return sums;
+  };
+  static constexpr auto kDimension = per_place([](std::size_t, auto digit) { return digit == 1 ? 1U : 0U; });
+  // The axes (a set) on which a place lies at an end of the cube, and those of the lower end.
+  static constexpr auto kAcross =
+      per_place([](std::size_t axis, auto digit) { return digit != 1 ? 1U << axis : 0U; });
+  static constexpr auto kLower =
+      per_place([](std::size_t axis, auto digit) { return digit == 0 ? 1U << axis : 0U; });
+  // The same place at the upper ends, and where, beyond the lower ends alone, the lowest cube about it lies.
+  static constexpr auto kRaised =
+      per_place([](std::size_t axis, auto digit) { return kWeight[axis] * (digit == 1 ? 1U : 2U); });
+  static constexpr auto kLowest =
+      per_place([](std::size_t axis, auto digit) { return kWeight[axis] * (digit == 0 ? 0U : 1U); });
 
   Cell own_name(std::uint32_t cube, std::uint32_t place) const;
   bool is_full(std::uint32_t lowest, std::uint32_t axes) const { return (full_[lowest] >> axes & 1U) != 0; }
@@ -385,6 +368,9 @@ class CellSet {
  private:
   std::vector<std::uint32_t> bits_;  // per cube, by place
 };
+
+/// Whether none of a cell's cofaces is among some cells.
+bool is_bare(const DualComplex& complex, DualComplex::Cell cell, const CellSet& cells);
 
 /// Adds a cell and all cells in its boundary.
 void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set);

@@ -130,12 +130,10 @@ class Thinning {
       }
       std::size_t axis = 0;
       while (DualComplex::digit(DualComplex::place_of(edge), axis) != 1) ++axis;
-      std::array<Cell, 2> ends{};  // lower, upper
-      std::size_t n = 0;
-      complex.for_each_face(edge, [&](Cell end) { ends[n++] = end; });
-      const bool upwards = ends[0] == from;
+      const auto [lower, upper] = complex.ends(edge);
+      const bool upwards = lower == from;
       chord[axis] += upwards ? 1 : -1;
-      return ends[upwards ? 1 : 0];
+      return upwards ? upper : lower;
     }
   };
 

@@ -1,6 +1,5 @@
 #include "core/collapse/shortest_loops.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <unordered_map>
@@ -28,14 +27,13 @@ class Graph {
     DisjointSets joined(vertices_.size());
     left.for_each([&](Cell cell) {
       if (DualComplex::dimension(cell) != 1) return;
-      std::array<std::uint32_t, 2> ends{};
-      std::size_t n = 0;
-      complex.for_each_face(cell, [&](Cell vertex) { ends[n++] = number.at(vertex); });
-      const auto cofaces = complex.cofaces(cell);
-      if (std::any_of(cofaces.begin(), cofaces.end(), [&](Cell square) { return left.has(square); }))
-        joined.unite(ends[0], ends[1]);
-      else
-        edges_.push_back(ends);
+      const auto [a, b] = complex.ends(cell);
+      if (is_bare(complex, cell, left)) {
+        edges_.push_back({number.at(a), number.at(b)});
+        edge_cells_.push_back(cell);
+      } else {
+        joined.unite(number.at(a), number.at(b));
+      }
     });
     for (auto& ends : edges_) ends = {joined.find(ends[0]), joined.find(ends[1])};
     at_ = Groups<std::uint32_t>(vertices_.size(), [&](const auto& put) {
@@ -50,16 +48,16 @@ class Graph {
     taken_.assign(edges_.size(), 0);
   }
 
-  // Takes an edge of the shortest loop out. @return the loop's vertices; empty when there is none.
-  std::vector<Cell> take_shortest() {
-    std::vector<Cell> best;
+  // Takes an edge of the shortest loop out. @return the loop; empty when there is none.
+  CellLoop take_shortest() {
+    CellLoop best;
     std::uint32_t chord = kNoEdge;
     for (const std::uint32_t e : chords_) {
       if (taken_[e]) continue;
       throw_if_stopped(context_);
-      std::vector<Cell> loop =
-          shortest_through(e, best.empty() ? kNoEdge : static_cast<std::uint32_t>(best.size()));
-      if (loop.empty()) continue;
+      CellLoop loop =
+          shortest_through(e, best.edges.empty() ? kNoEdge : static_cast<std::uint32_t>(best.edges.size()));
+      if (loop.edges.empty()) continue;
       best = std::move(loop);
       chord = e;
     }
@@ -69,10 +67,9 @@ class Graph {
 
  private:
   // The shortest loop through an edge if it has fewer than `most` edges: breadth first from one end to the other.
-  std::vector<Cell> shortest_through(std::uint32_t edge, std::uint32_t most) {
+  CellLoop shortest_through(std::uint32_t edge, std::uint32_t most) {
     const auto [from, to] = edges_[edge];
-    std::vector<Cell> loop{vertices_[from]};
-    if (from == to) return most > 1 ? loop : std::vector<Cell>{};
+    if (from == to) return most > 1 ? CellLoop{{vertices_[from]}, {edge_cells_[edge]}} : CellLoop{};
     std::vector<std::uint32_t> seen{from};
     way_[from] = edge;
     std::size_t next = 0;
@@ -86,10 +83,15 @@ class Graph {
         }
       }
     }
-    if (way_[to] == kNoEdge)
-      loop.clear();
-    else
-      for (std::uint32_t at = to; at != from; at = other_end(way_[at], at)) loop.push_back(vertices_[at]);
+    CellLoop loop;
+    if (way_[to] != kNoEdge) {  // way_[from] is the edge itself
+      std::uint32_t at = from;
+      do {
+        loop.vertices.push_back(vertices_[at]);
+        loop.edges.push_back(edge_cells_[way_[at]]);
+        at = other_end(way_[at], at);
+      } while (at != from);
+    }
     for (const std::uint32_t vertex : seen) way_[vertex] = kNoEdge;
     return loop;
   }
@@ -101,6 +103,7 @@ class Graph {
   ExecutionContext* context_;
   std::vector<Cell> vertices_;
   std::vector<std::array<std::uint32_t, 2>> edges_;  // between vertices, one for all that squares join
+  std::vector<Cell> edge_cells_;                     // per edge
   Groups<std::uint32_t> at_;                         // per vertex: its edges
   std::vector<std::uint32_t> chords_;
   std::vector<char> taken_;         // per edge
@@ -109,13 +112,13 @@ class Graph {
 
 }  // namespace
 
-std::vector<std::vector<Cell>> shortest_loops(const DualComplex& complex, const CellSet& left,
-                                              std::size_t count, ExecutionContext* context) {
+std::vector<CellLoop> shortest_loops(const DualComplex& complex, const CellSet& left, std::size_t count,
+                                     ExecutionContext* context) {
   Graph graph(complex, left, context);
-  std::vector<std::vector<Cell>> loops;
+  std::vector<CellLoop> loops;
   while (loops.size() < count) {
-    std::vector<Cell> loop = graph.take_shortest();
-    if (loop.empty()) break;
+    CellLoop loop = graph.take_shortest();
+    if (loop.edges.empty()) break;
     loops.push_back(std::move(loop));
   }
   return loops;

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"
@@ -40,7 +38,7 @@ class PartInterior {
   }
 
   bool contains(std::uint32_t part, const Vec3& u) const {
-    return membership_[part].contains(scaled_place(lattice_, (1 / lattice_.spacing) * u));
+    return membership_[part].contains(scaled_from_frame(lattice_, u));
   }
 
  private:
@@ -81,9 +79,7 @@ class Contouring {
       m[1] = m[1] + share * n.y * n;
       m[2] = m[2] + share * n.z * n;
     }
-    const CellPlace& at = cells_.place[cell];
-    const Vec3 corner =
-        spacing_ * Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+    const Vec3 corner = spacing_ * vector_of(cells_.place[cell]);
     const double h = spacing_;
     if (cells_.whole[cell]) {
       const Vec3 n = unit(normal), away = corner + Vec3{h / 2, h / 2, h / 2} - mean;

@@ -42,21 +42,14 @@ std::array<Cell, 4> vertices_round(const DualComplex& complex, Cell square) {
 
 std::vector<CellPlace> cells_of_vertices(const Lattice& lattice, std::span<const Cell> vertices) {
   std::vector<std::uint32_t> cubes;
-  for (const Cell vertex : vertices) {
-    const std::uint32_t cube = DualComplex::cube_of(vertex);
-    if (cubes.empty() || cubes.back() != cube) cubes.push_back(cube);
-  }
+  cubes.reserve(vertices.size());
+  for (const Cell vertex : vertices) cubes.push_back(DualComplex::cube_of(vertex));
   const std::vector<LatticePlace> places = lattice_places(lattice, cubes);
-  std::vector<CellPlace> result;
-  result.reserve(vertices.size());
-  std::size_t n = 0;
-  for (const Cell vertex : vertices) {
-    while (cubes[n] != DualComplex::cube_of(vertex)) ++n;
-    CellPlace& place = result.emplace_back();
+  std::vector<CellPlace> result(vertices.size());
+  for (std::size_t n = 0; n < vertices.size(); ++n)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      place[axis] = std::int64_t{places[n][axis]} -
-                    (DualComplex::digit(DualComplex::place_of(vertex), axis) == 0 ? 1 : 0);
-  }
+      result[n][axis] = std::int64_t{places[n][axis]} -
+                        (DualComplex::digit(DualComplex::place_of(vertices[n]), axis) == 0 ? 1 : 0);
   return result;
 }
 

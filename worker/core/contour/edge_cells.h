@@ -41,9 +41,12 @@ EdgeCells edge_cells(const Lattice& lattice, const DualComplex& complex, const S
 /// The vertices round a square, once round.
 std::array<DualComplex::Cell, 4> vertices_round(const DualComplex& complex, DualComplex::Cell square);
 
-/// Where vertices of the complex lie.
-/// @param vertices ascending.
-/// @return the cells that they are dual to.
+/// The cells that vertices of the complex are dual to.
 std::vector<CellPlace> cells_of_vertices(const Lattice& lattice, std::span<const DualComplex::Cell> vertices);
+
+/// The middle of a cell, real lattice indices.
+inline Vec3 middle_of(const CellPlace& cell) {
+  return vector_of(cell) + Vec3{0.5, 0.5, 0.5};
+}
 
 }  // namespace affskel::core

@@ -4,12 +4,15 @@
 
 namespace affskel::core {
 
+std::vector<Vec3> positions(const SheetMesh& sheet) {
+  std::vector<Vec3> places;
+  places.reserve(sheet.vertices.size());
+  for (const SheetVertex& vertex : sheet.vertices) places.push_back(vertex.position);
+  return places;
+}
+
 Mesh mesh_of(const SheetMesh& sheet) {
-  Mesh mesh;
-  mesh.points.reserve(sheet.vertices.size());
-  for (const SheetVertex& vertex : sheet.vertices) mesh.points.push_back(vertex.position);
-  mesh.triangles = sheet.triangles;
-  return mesh;
+  return {positions(sheet), sheet.triangles};
 }
 
 SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t) {

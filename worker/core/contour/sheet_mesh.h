@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +34,9 @@ struct SheetMesh {
   std::vector<Triangle> triangles;
   std::vector<Segment> segments;  ///< of curves: two vertices each
 };
+
+/// Of the vertices.
+std::vector<Vec3> positions(const SheetMesh& sheet);
 
 /// Points and triangles alone.
 Mesh mesh_of(const SheetMesh& sheet);

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
-#include "core/base/groups.h"
 #include "core/base/matrix3.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_sizes.h"
 #include "core/curve/limb_sections.h"
+#include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/distance_to_mesh.h"
@@ -73,12 +71,7 @@ class CentreLines {
         distance_(input.surface),
         membership_(input.surface),
         lines_(polylines(places.size(), input.segments)),
-        neighbours_(places.size(), [&](const auto& put) {
-          for (const auto& [a, b] : input.segments) {
-            put(a, b);
-            put(b, a);
-          }
-        }) {}
+        neighbours_(neighbours(places.size(), input.segments)) {}
 
   void run() {
     find_balls();
@@ -366,7 +359,7 @@ class CentreLines {
   const DistanceToMesh distance_;
   const SolidMembership membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
-  const Groups<std::uint32_t> neighbours_;
+  const Adjacency neighbours_;
   std::vector<Vec3> start_;               // once smooth
   std::vector<Vec3> home_;                // where the round has found the vertices
   std::vector<double> thickness_, size_;  // per vertex: see LimbSections::thickness(), joint_sizes()

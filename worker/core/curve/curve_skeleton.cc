@@ -8,9 +8,8 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
-#include "core/base/groups.h"
-#include "core/base/matrix3.h"
 #include "core/base/require.h"
+#include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"
@@ -23,6 +22,7 @@
 #include "core/curve/volume_beyond.h"
 #include "core/curve/zipped_lines.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/ridge/row_band.h"
 #include "core/spatial/distance_to_mesh.h"
@@ -70,21 +70,16 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
                        double least_reach) {
   LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size()),
                 std::vector<char>(ridge.vertices.size(), 0)};
-  std::vector<Vec3> places;
-  for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
+  const std::vector<Vec3> places = positions(ridge);
   const PointIndex index(places);
   std::vector<LimbTip> limbs = basis.limbs;
   limbs.insert(limbs.end(), ridge.filled.limbs.begin(), ridge.filled.limbs.end());
   std::vector<DualComplex::Cell> tips;
   for (const LimbTip& limb : limbs) tips.push_back(limb.vertex);
-  std::sort(tips.begin(), tips.end());
   const std::vector<CellPlace> cells = cells_of_vertices(lattice, tips);
-  for (const LimbTip& limb : limbs) {
-    const CellPlace& cell = cells[static_cast<std::size_t>(
-        std::lower_bound(tips.begin(), tips.end(), limb.vertex) - tips.begin())];
-    const Vec3 tip =
-        lattice.spacing * Vec3{static_cast<double>(cell[0]) + 0.5, static_cast<double>(cell[1]) + 0.5,
-                               static_cast<double>(cell[2]) + 0.5};
+  for (std::size_t n = 0; n < limbs.size(); ++n) {
+    const LimbTip& limb = limbs[n];
+    const Vec3 tip = lattice.spacing * middle_of(cells[n]);
     const PointIndex::Found end = index.find(tip);
     if (end.distance >= (kNearTip + limb.width) * lattice.spacing) continue;
     ends.has_tip[end.number] = 1;
@@ -98,29 +93,17 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
   return ends;
 }
 
-Groups<std::uint32_t> neighbours_along(std::size_t vertices, std::span<const Segment> segments) {
-  return {vertices, [&](const auto& put) {
-            for (const auto& [a, b] : segments) {
-              put(a, b);
-              put(b, a);
-            }
-          }};
-}
-
 // Points that no way leads to lie in fragments, which have no skeleton: the nearest vertex takes them.
 void give_the_rest(const Lattice& lattice, CurveSkeleton& curve) {
   std::vector<std::uint32_t> rest;
   for (std::uint32_t p = 0; p < curve.nearest.size(); ++p)
     if (curve.nearest[p] == DualComplex::kNone) rest.push_back(p);
   if (rest.empty()) return;
-  std::vector<Vec3> places;
-  for (const SheetVertex& vertex : curve.vertices) places.push_back(vertex.position);
+  const std::vector<Vec3> places = positions(curve);
   const PointIndex index(places);
   const std::vector<LatticePlace> at = lattice_places(lattice, rest);
-  for (std::size_t n = 0; n < rest.size(); ++n) {
-    const Vec3 place = lattice.spacing * Vec3{double(at[n][0]), double(at[n][1]), double(at[n][2])};
-    curve.nearest[rest[n]] = index.find(place).number;
-  }
+  for (std::size_t n = 0; n < rest.size(); ++n)
+    curve.nearest[rest[n]] = index.find(lattice.spacing * vector_of(at[n])).number;
 }
 
 // Per vertex of the ridge: that of the curve which is nearest along it.
@@ -129,10 +112,10 @@ std::vector<std::uint32_t> nearest_on_curve(const RidgeSheet& ridge, std::span<c
   for (std::uint32_t v = 0; v < lines.size(); ++v) sources[lines[v]] = v;
   std::vector<Segment> edges = ridge.segments;
   for (const auto& [a, b, c] : ridge.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
-  const Groups<std::uint32_t> neighbours = neighbours_along(ridge.vertices.size(), edges);
+  const Adjacency beside = neighbours(ridge.vertices.size(), edges);
   CheapestWays ways(std::move(sources));
   ways.find([&](std::uint32_t v, const auto& go) {
-    for (const std::uint32_t to : neighbours[v])
+    for (const std::uint32_t to : beside[v])
       go(to, norm(ridge.vertices[to].position - ridge.vertices[v].position), v);
   });
   return std::move(ways.source);
@@ -160,9 +143,8 @@ SheetLines with_joints(const SheetLines& lines, std::span<const char> ends, std:
 
 // In the frame's coordinates.
 Mesh surface_in_frame(const Solid& solid, const Lattice& lattice) {
-  Mesh surface = solid.mesh;
-  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
-  for (Vec3& p : surface.points) p = lattice.spacing * transposed_times(to_indices, p - lattice.grid.origin);
+  Mesh surface = surface_in_lattice(solid, lattice);
+  for (Vec3& p : surface.points) p = lattice.spacing * p;
   return surface;
 }
 
@@ -178,24 +160,23 @@ std::vector<double> thickness_along(const Mesh& surface, const SheetLines& lines
 
 void move_to_middle(const Mesh& surface, const Lattice& lattice, const LimbEnds& ends,
                     std::span<const std::uint32_t> lines, CurveSkeleton& curve, ExecutionContext* context) {
-  std::vector<Vec3> places, tips;
+  std::vector<Vec3> places = positions(curve), tips;
   std::vector<char> has_tip;
-  for (std::uint32_t v = 0; v < lines.size(); ++v) {
-    places.push_back(curve.vertices[v].position);
-    tips.push_back(ends.tip[lines[v]]);
-    has_tip.push_back(ends.is_end[lines[v]]);
+  for (const std::uint32_t v : lines) {
+    tips.push_back(ends.tip[v]);
+    has_tip.push_back(ends.is_end[v]);
   }
   centre_lines({surface, curve.segments, tips, has_tip, lattice.spacing, context}, places);
   for (std::uint32_t v = 0; v < lines.size(); ++v) curve.vertices[v].position = places[v];
 }
 
 // The line has moved since: each point goes on along it to the vertex that is nearest now, as far as that comes nearer.
-std::uint32_t moved(std::span<const Vec3> places, const Groups<std::uint32_t>& neighbours, const Vec3& at,
+std::uint32_t moved(std::span<const Vec3> places, const Adjacency& beside, const Vec3& at,
                     std::uint32_t nearest) {
   double least = norm(places[nearest] - at);
   for (bool moves = true; moves;) {
     moves = false;
-    for (const std::uint32_t to : neighbours[nearest]) {
+    for (const std::uint32_t to : beside[nearest]) {
       const double way = norm(places[to] - at);
       if (way >= least) continue;
       least = way;
@@ -210,7 +191,7 @@ std::uint32_t moved(std::span<const Vec3> places, const Groups<std::uint32_t>& n
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
   const auto distance = [&](const Vec3& position) {
-    return solid.scale() * surface.nearest(scaled_place(lattice, (1 / lattice.spacing) * position));
+    return solid.scale() * surface.nearest(scaled_from_frame(lattice, position));
   };
   for (const SheetVertex& vertex : curve.vertices) curve.distance.push_back(distance(vertex.position));
   for (Opening& opening : curve.opened) opening.distance = distance(opening.place);
@@ -221,14 +202,11 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   const Mesh surface = surface_in_frame(solid, lattice);
   const LimbSections sections(surface);
   const DistanceToMesh distance(surface);
-  std::vector<Vec3> places;
+  const std::vector<Vec3> places = positions(curve);
   std::vector<double> balls;
-  for (const SheetVertex& vertex : curve.vertices) {
-    places.push_back(vertex.position);
-    balls.push_back(
-        sections.thickness(vertex.position, LimbSections::kSeen * distance.nearest(vertex.position)));
-  }
-  const Groups<std::uint32_t> neighbours = neighbours_along(places.size(), curve.segments);
+  for (const Vec3& place : places)
+    balls.push_back(sections.thickness(place, LimbSections::kSeen * distance.nearest(place)));
+  const Adjacency beside = neighbours(places.size(), curve.segments);
   const double one = 1 / static_cast<double>(lattice.points);
   const auto for_each = [&](const auto& vertex_of) {  // what a point has, by what it had
     StopCheck stop(context);
@@ -242,7 +220,7 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
     return share;
   };
   curve.slice =
-      for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, neighbours, at, nearest); });
+      for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, beside, at, nearest); });
   const std::vector<double> radius =
       limb_radii({places, curve.segments, curve.slice, curve.slice, balls, solid.volume});
   const LimbTubes tubes(places, curve.segments, balls, radius,
@@ -268,8 +246,7 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
   SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
   add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
-  std::vector<Vec3> places;
-  for (const SheetVertex& vertex : ridge.vertices) places.push_back(vertex.position);
+  std::vector<Vec3> places = positions(ridge);
   lines = sheet_lines(ridge, ends.is_end, options.context);
   const std::vector<double> thickness = thickness_along(surface, lines, places, balls);
   lines = pruned_lines(lines, places, thickness, options.context);

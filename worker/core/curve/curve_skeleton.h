@@ -5,7 +5,6 @@
 
 #include "core/base/execution_context.h"
 #include "core/base/vec3.h"
-#include "core/collapse/realms.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_sheet.h"

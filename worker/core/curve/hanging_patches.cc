@@ -1,13 +1,12 @@
 #include "core/curve/hanging_patches.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <utility>
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
-#include "core/base/groups.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
@@ -28,25 +27,14 @@ class Patches {
         has_end_(has_end),
         sets_(sheet.vertices.size()),
         on_patch_(sheet.vertices.size(), 0) {
-    for (const Triangle& t : sheet.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        edges_.push_back({std::min(a, b), std::max(a, b)});
-        sets_.unite(a, b);
-        on_patch_[a] = 1;
-      }
-    }
-    std::sort(edges_.begin(), edges_.end());
-    for (std::size_t n = 0; n < edges_.size(); ++n)
-      if ((n == 0 || edges_[n] != edges_[n - 1]) && (n + 1 == edges_.size() || edges_[n] != edges_[n + 1]))
-        rim_.push_back(edges_[n]);
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    neighbours_ = {sheet.vertices.size(), [&](const auto& put) {
-                     for (const auto& [a, b] : edges_) {
-                       put(a, b);
-                       put(b, a);
-                     }
-                   }};
+    const Edges edges(sheet.vertices.size(), sheet.triangles);
+    edges.for_each([&](std::uint32_t a, std::uint32_t b, std::span<const EdgeSide> sides) {
+      edges_.push_back({a, b});
+      if (sides.size() == 1) rim_.push_back({a, b});
+      sets_.unite(a, b);
+      on_patch_[a] = on_patch_[b] = 1;
+    });
+    neighbours_ = neighbours(sheet.vertices.size(), edges_);
   }
 
   std::vector<HangingPatch> run() {
@@ -112,7 +100,7 @@ class Patches {
   DisjointSets sets_;  // of vertices, by triangles
   std::vector<char> on_patch_;
   std::vector<Segment> edges_, rim_;  // of triangles, each once; those of one
-  Groups<std::uint32_t> neighbours_;
+  Adjacency neighbours_;
   std::map<std::uint32_t, Patch> patches_;
 };
 

@@ -89,23 +89,14 @@ class Joints {
     for (std::uint32_t n = 0; n < polylines_.size(); ++n)
       if (gone_[n])
         for (std::size_t k = 1; k + 1 < polylines_[n].size(); ++k) stays[polylines_[n][k]] = 0;
-    SheetLines result;
-    result.opened = lines_.opened;
-    std::vector<std::uint32_t> number(stays.size(), 0);
-    for (std::uint32_t v = 0; v < stays.size(); ++v) {
-      if (!stays[v]) continue;
-      number[v] = static_cast<std::uint32_t>(result.vertices.size());
-      result.vertices.push_back(lines_.vertices[v]);
-    }
+    std::vector<Segment> segments;
     for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
       if (gone_[n]) continue;
       for (std::size_t k = 1; k < polylines_[n].size(); ++k)
-        result.segments.push_back({number[joint_[polylines_[n][k - 1]]], number[joint_[polylines_[n][k]]]});
+        segments.push_back(ascending(joint_[polylines_[n][k - 1]], joint_[polylines_[n][k]]));
     }
-    for (Segment& segment : result.segments)
-      if (segment[0] > segment[1]) std::swap(segment[0], segment[1]);
-    std::sort(result.segments.begin(), result.segments.end());
-    return result;
+    std::sort(segments.begin(), segments.end());
+    return numbered_anew(lines_, stays, std::move(segments));
   }
 
   const SheetLines& lines_;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/vec3.h"
 #include "core/curve/sheet_lines.h"

@@ -23,7 +23,7 @@ class Pruning {
         segments_(lines.segments),
         beside_(lines.vertices.size()) {
     for (Segment& s : segments_) {
-      if (s[0] > s[1]) std::swap(s[0], s[1]);
+      s = ascending(s[0], s[1]);
       beside_[s[0]].push_back(s[1]);
       beside_[s[1]].push_back(s[0]);
     }
@@ -59,7 +59,7 @@ class Pruning {
   double ball(std::uint32_t v) const { return ball_[lines_.vertices[v]]; }
 
   void erase(std::uint32_t a, std::uint32_t b) {
-    std::erase(segments_, Segment{std::min(a, b), std::max(a, b)});
+    std::erase(segments_, ascending(a, b));
     std::erase(beside_[a], b);
     std::erase(beside_[b], a);
   }

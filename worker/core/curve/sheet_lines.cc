@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -46,7 +47,7 @@ class Collapse {
  private:
   void list_edges() {
     const auto add = [&](std::uint32_t a, std::uint32_t b) {
-      edges_.push_back({std::min(a, b), std::max(a, b)});
+      edges_.push_back(ascending(a, b));
       pieces_.unite(a, b);
     };
     for (const Triangle& t : sheet_.triangles)
@@ -72,8 +73,8 @@ class Collapse {
   }
 
   std::uint32_t number(std::uint32_t a, std::uint32_t b) const {
-    const Segment edge{std::min(a, b), std::max(a, b)};
-    return static_cast<std::uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), edge) - edges_.begin());
+    return static_cast<std::uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), ascending(a, b)) -
+                                      edges_.begin());
   }
 
   // The vertex of the greatest E in each piece that has less than two ends.
@@ -298,18 +299,12 @@ class Collapse {
   }
 
   SheetLines lines() const {
-    SheetLines result;
-    result.opened = opened_;
-    const std::vector<char> there = vertices_left();
-    std::vector<std::uint32_t> number(there.size(), 0);
-    for (std::uint32_t v = 0; v < there.size(); ++v) {
-      if (!there[v]) continue;
-      number[v] = static_cast<std::uint32_t>(result.vertices.size());
-      result.vertices.push_back(v);
-    }
+    SheetLines all{std::vector<std::uint32_t>(sheet_.vertices.size()), {}, opened_};
+    std::iota(all.vertices.begin(), all.vertices.end(), 0U);
+    std::vector<Segment> segments;
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
-      if (edge_left_[e]) result.segments.push_back({number[edges_[e][0]], number[edges_[e][1]]});
-    return result;
+      if (edge_left_[e]) segments.push_back(edges_[e]);
+    return numbered_anew(all, vertices_left(), std::move(segments));
   }
 
   // When the triangle goes, which of its edges goes with it first, and that edge.
@@ -335,22 +330,30 @@ SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends, Execu
   return Collapse(sheet, ends, context).run();
 }
 
-SheetLines left_of(const SheetLines& lines, std::span<const Segment> segments) {
-  SheetLines left;
-  left.opened = lines.opened;
+SheetLines numbered_anew(const SheetLines& lines, std::span<const char> stays,
+                         std::vector<Segment> segments) {
+  SheetLines result{{}, std::move(segments), lines.opened};
+  std::vector<std::uint32_t> number(stays.size(), 0);
+  for (std::uint32_t v = 0; v < stays.size(); ++v) {
+    if (!stays[v]) continue;
+    number[v] = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.push_back(lines.vertices[v]);
+  }
+  for (auto& [a, b] : result.segments) {
+    a = number[a];
+    b = number[b];
+  }
+  return result;
+}
+
+SheetLines left_of(const SheetLines& lines, std::vector<Segment> segments) {
   std::vector<char> had(lines.vertices.size(), 0), has(had);
   for (const Segment& s : lines.segments)
     for (const std::uint32_t v : s) had[v] = 1;
   for (const Segment& s : segments)
     for (const std::uint32_t v : s) has[v] = 1;
-  std::vector<std::uint32_t> number(had.size(), 0);
-  for (std::uint32_t v = 0; v < had.size(); ++v) {
-    if (had[v] && !has[v]) continue;
-    number[v] = static_cast<std::uint32_t>(left.vertices.size());
-    left.vertices.push_back(lines.vertices[v]);
-  }
-  for (const auto& [a, b] : segments) left.segments.push_back({number[a], number[b]});
-  return left;
+  for (std::uint32_t v = 0; v < had.size(); ++v) has[v] = has[v] || !had[v];
+  return numbered_anew(lines, has, std::move(segments));
 }
 
 }  // namespace affskel::core

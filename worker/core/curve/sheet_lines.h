@@ -29,7 +29,11 @@ struct SheetLines {
 SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends,
                        ExecutionContext* context = nullptr);
 
+/// The vertices that stay of lines, with these segments between them.
+/// @param stays, segments by numbers in lines.vertices.
+SheetLines numbered_anew(const SheetLines& lines, std::span<const char> stays, std::vector<Segment> segments);
+
 /// What is left of lines: these segments between their vertices, without the vertices that had some and have none any more.
-SheetLines left_of(const SheetLines& lines, std::span<const Segment> segments);
+SheetLines left_of(const SheetLines& lines, std::vector<Segment> segments);
 
 }  // namespace affskel::core

@@ -1,11 +1,10 @@
 #include "core/curve/surface_points.h"
 
-#include <algorithm>
 #include <cstddef>
 
-#include "core/base/matrix3.h"
 #include "core/base/unit.h"
 #include "core/collapse/dual_complex.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {
@@ -53,7 +52,7 @@ class PointsOfLattice {
 std::vector<std::uint32_t> surface_points(const Solid& solid, const Lattice& lattice,
                                           ExecutionContext* context) {
   const PointsOfLattice points(lattice);
-  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
+  const LatticeIndices indices(lattice);
   const double half_step = 0.5 * lattice.spacing / solid.scale();
   StopCheck stop(context);
   std::vector<std::uint32_t> result;
@@ -63,7 +62,7 @@ std::vector<std::uint32_t> surface_points(const Solid& solid, const Lattice& lat
     const Vec3 &p = solid.mesh.points[a], &q = solid.mesh.points[b], &r = solid.mesh.points[c];
     const Vec3 outward = unit(cross(q - p, r - p));
     const Vec3 place = (1.0 / 3) * (p + (q + r)) - half_step * outward;
-    result.push_back(points.nearest(transposed_times(to_indices, place - lattice.grid.origin)));
+    result.push_back(points.nearest(indices(place)));
   }
   return result;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "core/base/groups.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
@@ -15,13 +15,7 @@ class Cuts {
  public:
   Cuts(std::span<const Segment> segments, std::span<const double> weight)
       : weight_(weight),
-        neighbours_(weight.size(),
-                    [&](const auto& put) {
-                      for (const auto& [a, b] : segments) {
-                        put(a, b);
-                        put(b, a);
-                      }
-                    }),
+        neighbours_(neighbours(weight.size(), segments)),
         order_(weight.size(), kNone),
         low_(weight.size(), 0),
         parent_(weight.size(), kNone),
@@ -80,7 +74,7 @@ class Cuts {
   }
 
   std::span<const double> weight_;
-  Groups<std::uint32_t> neighbours_;
+  Adjacency neighbours_;
   std::vector<std::uint32_t> order_, low_, parent_, found_;
   std::vector<double> below_;              // of the vertex and all that was found from it
   std::vector<double> parted_, heaviest_;  // of the subtrees that a cut parts: all, and the heaviest

@@ -1,7 +1,6 @@
 #include "core/curve/zipped_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -100,8 +99,7 @@ class Zip {
   std::vector<Segment> segments() const {
     std::vector<Segment> result;
     for (const Line& line : parts_)
-      for (std::size_t k = 1; k < line.size(); ++k)
-        result.push_back({std::min(line[k - 1], line[k]), std::max(line[k - 1], line[k])});
+      for (std::size_t k = 1; k < line.size(); ++k) result.push_back(ascending(line[k - 1], line[k]));
     std::sort(result.begin(), result.end());
     return result;
   }

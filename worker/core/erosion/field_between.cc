@@ -40,7 +40,7 @@ class Between {
     for (unsigned corner = 0; corner < 8; ++corner) {
       const std::array<std::int64_t, 3> c = {low[0] + (corner >> 2), low[1] + ((corner >> 1) & 1),
                                              low[2] + (corner & 1)};
-      const Vec3 to = x - Vec3{double(c[0]), double(c[1]), double(c[2])};
+      const Vec3 to = x - vector_of(c);
       const double weight = (1 - std::abs(to.x)) * (1 - std::abs(to.y)) * (1 - std::abs(to.z));
       const std::uint32_t rank = ranks_.at(c[0], c[1], c[2]);
       if (weight == 0 || rank == LayerIndex::kOutside || !std::isfinite(field_.erosion[rank])) continue;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/mesh/mesh.h"
+#include "core/base/vec3.h"
 
 namespace affskel::core {
 

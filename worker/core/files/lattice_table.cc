@@ -1,6 +1,5 @@
 #include "core/files/lattice_table.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "core/base/error.h"

@@ -11,6 +11,7 @@
 #include "base/coding.h"
 #include "base/number_text.h"
 #include "core/files/vtk_inline_data.h"
+#include "core/lattice/lattice_coordinates.h"
 
 namespace affskel::core {
 namespace {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include "core/lattice/lattice_coordinates.h"
 
 #include "core/base/error.h"
 #include "core/base/matrix3.h"

@@ -6,7 +6,7 @@
 #include "base/atomic_file.h"
 #include "core/files/file_facts.h"
 #include "core/files/grid_file.h"
-#include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/lattice.h"
 
 namespace affskel::core {
 

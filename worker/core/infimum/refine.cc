@@ -1,7 +1,5 @@
 #include "core/infimum/refine.h"
 
-#include <utility>
-
 #include "core/infimum/refinement.h"
 
 namespace affskel::core {

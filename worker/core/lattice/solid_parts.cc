@@ -1,8 +1,7 @@
 #include "core/lattice/solid_parts.h"
 
-#include <algorithm>
-
 #include "core/base/disjoint_sets.h"
+#include "core/lattice/lattice_coordinates.h"
 
 namespace affskel::core {
 
@@ -23,10 +22,7 @@ SolidParts::SolidParts(const Solid& solid, const Lattice& lattice) : solid_(soli
 
 std::uint32_t SolidParts::of_point(std::uint32_t point) const {
   if (count_ == 1) return 0;
-  const std::vector<LatticeRun>& runs = lattice_.axis[2].runs;
-  const auto behind = std::upper_bound(runs.begin(), runs.end(), point,
-                                       [](std::uint32_t p, const LatticeRun& run) { return p < run.first; });
-  return of_triangle((behind - 1)->low);
+  return of_triangle(run_of(lattice_, point).low);
 }
 
 std::vector<Mesh> SolidParts::meshes() const {

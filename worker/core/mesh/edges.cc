@@ -35,6 +35,15 @@ Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles) {
           }};
 }
 
+Adjacency neighbours(std::size_t points, std::span<const Segment> segments) {
+  return {points, [&](const auto& put) {
+            for (const auto& [a, b] : segments) {
+              put(a, b);
+              put(b, a);
+            }
+          }};
+}
+
 Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles) {
   return {points, [&](const auto& put) {
             for (std::uint32_t t = 0; t < triangles.size(); ++t)

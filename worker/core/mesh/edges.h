@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "core/base/groups.h"
 #include "core/base/parallel.h"
@@ -54,6 +52,9 @@ class Edges {
 using Adjacency = Groups<std::uint32_t>;
 
 Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles);
+
+/// Of every vertex the other ends of its segments, in their order.
+Adjacency neighbours(std::size_t points, std::span<const Segment> segments);
 
 /// The triangles of every vertex, ascending.
 Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles);

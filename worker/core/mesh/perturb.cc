@@ -1,6 +1,5 @@
 #include "core/mesh/perturb.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -5,6 +5,7 @@
 #include "core/quality/sheet_topology.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -25,27 +26,23 @@ class Sheet {
         segments_(segments),
         edges_(sheet.points.size(), sheet.triangles),
         joined_(sheet.points.size()),
-        rim_(sheet.points.size()),
         patches_(sheet.triangles.size()) {}
 
-  SheetTopology run() {
+  BettiNumbers run() {
     std::int64_t edges = 0;
     edges_.for_each([&](std::uint32_t low, std::uint32_t high, Sides sides) {
       ++edges;
       joined_.unite(low, high);
-      if (sides.size() == 1) rim_.unite(low, high);
       if (sides.size() == 2) patches_.unite(sides[0].triangle(), sides[1].triangle());
-      result_.branch_edges += sides.size() > 2;
     });
     edges += join_segments();
-    count_vertices();
-    result_.boundary_loops = count_rim_loops();
-    result_.betti.cavities = count_closed_surfaces();
-    const std::int64_t euler = vertices_ - edges + static_cast<std::int64_t>(sheet_.triangles.size());
-    result_.betti.holes =
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(result_.betti.components) +
-                                   static_cast<std::int64_t>(result_.betti.cavities) - euler);
-    return result_;
+    BettiNumbers result;
+    for (std::uint32_t v = 0; v < sheet_.points.size(); ++v) result.components += joined_.find(v) == v;
+    result.cavities = count_closed_surfaces();
+    const std::int64_t euler = std::ssize(sheet_.points) - edges + std::ssize(sheet_.triangles);
+    result.holes =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(result.components + result.cavities) - euler);
+    return result;
   }
 
  private:
@@ -58,21 +55,6 @@ class Sheet {
     }
     std::sort(own.begin(), own.end());
     return std::unique(own.begin(), own.end()) - own.begin();
-  }
-
-  void count_vertices() {
-    vertices_ = static_cast<std::int64_t>(sheet_.points.size());
-    for (std::uint32_t v = 0; v < sheet_.points.size(); ++v) result_.betti.components += joined_.find(v) == v;
-  }
-
-  std::uint64_t count_rim_loops() {
-    std::vector<bool> on_rim(sheet_.points.size(), false);
-    edges_.for_each([&](std::uint32_t low, std::uint32_t high, Sides sides) {
-      if (sides.size() == 1) on_rim[low] = on_rim[high] = true;
-    });
-    std::uint64_t loops = 0;
-    for (std::uint32_t v = 0; v < on_rim.size(); ++v) loops += on_rim[v] && rim_.find(v) == v;
-    return loops;
   }
 
   // A closed surface is a set of patches that every edge meets an even number of times: none with a rim, and
@@ -104,14 +86,12 @@ class Sheet {
   const Mesh& sheet_;
   Segments segments_;
   Edges edges_;
-  DisjointSets joined_, rim_, patches_;
-  std::int64_t vertices_ = 0;
-  SheetTopology result_;
+  DisjointSets joined_, patches_;
 };
 
 }  // namespace
 
-SheetTopology sheet_topology(const Mesh& sheet, std::span<const Segment> segments) {
+BettiNumbers sheet_betti_numbers(const Mesh& sheet, std::span<const Segment> segments) {
   return Sheet(sheet, segments).run();
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 
 #include "core/mesh/mesh.h"
@@ -9,17 +7,11 @@
 
 namespace affskel::core {
 
-/// The topology of a triangulated sheet that may have rims, branches and closed surfaces, and curves.
-struct SheetTopology {
-  BettiNumbers betti;
-  std::uint64_t boundary_loops = 0;  ///< connected components of the rim: the edges with one triangle
-  std::uint64_t branch_edges = 0;    ///< edges where more than two triangles meet
-};
-
-/// The topology of a sheet and its curves (a vertex that neither uses is a piece of its own), from V - E + F = b0 - b1 + b2; b2 counts the voids that it
-/// encloses in space. Time O(F log F), and an elimination in the number of patches at branches.
+/// The Betti numbers of a triangulated sheet, which may have rims, branches and closed surfaces, and its curves (a
+/// vertex that neither uses is a piece of its own), from V - E + F = b0 - b1 + b2; b2 counts the voids that it encloses
+/// in space. Time O(F log F), and an elimination in the number of patches at branches.
 /// @param sheet triangles distinct, each with three distinct corners; orientation does not matter.
 /// @param segments of curves, two distinct vertices of the sheet each; they may run along its edges.
-SheetTopology sheet_topology(const Mesh& sheet, std::span<const Segment> segments = {});
+BettiNumbers sheet_betti_numbers(const Mesh& sheet, std::span<const Segment> segments = {});
 
 }  // namespace affskel::core

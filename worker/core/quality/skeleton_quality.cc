@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
-#include <utility>
 
 #include "core/lattice/lattice_coordinates.h"
 #include "core/quality/chance_level.h"
@@ -101,7 +100,7 @@ SkeletonQuality sheet_quality(const Solid& solid, const Lattice& lattice, const 
     quality.hausdorff_there = farthest(sheet.points, options.other->points);
     quality.hausdorff_back = farthest(options.other->points, sheet.points);
   }
-  quality.skeleton = sheet_topology(sheet, options.segments).betti;
+  quality.skeleton = sheet_betti_numbers(sheet, options.segments);
   quality.mean_thickness = sheet.points.empty() ? 0 : 1;
   quality.other_threshold = options.other_threshold;
   if (quality.points == 0) quality.advice = options.advice_if_empty;

@@ -5,7 +5,6 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "core/repair/orient_soup.h"

@@ -51,16 +51,16 @@ class Openings {
     if (loops.size() > kMostBored) return result;
     std::unordered_set<Cell> passed;
     for (std::size_t n = 0; n + solid_.handles < loops.size(); ++n) {
-      const std::vector<Cell>& loop = loops[n];
-      if (!is_bored(loop) ||
-          std::any_of(loop.begin(), loop.end(), [&](Cell v) { return passed.contains(v); }))
+      const auto& [vertices, edges] = loops[n];
+      if (!is_bored(vertices) ||
+          std::any_of(vertices.begin(), vertices.end(), [&](Cell v) { return passed.contains(v); }))
         continue;
       Weakest weakest;
-      for (std::size_t v = 0; v < loop.size(); ++v)
-        if (const auto edge = edge_between(loop[v], loop[(v + 1) % loop.size()])) look_at(*edge, weakest);
+      for (const Cell edge : edges)
+        if (is_bare(complex_, edge, left_)) look_at(edge, weakest);
       if (!weakest) continue;
       result.push_back(weakest->second);
-      passed.insert(loop.begin(), loop.end());
+      passed.insert(vertices.begin(), vertices.end());
     }
     return result;
   }
@@ -74,23 +74,9 @@ class Openings {
     if (!weakest || here < *weakest) weakest = here;
   }
 
-  // An edge of no square that is left.
-  std::optional<Cell> edge_between(Cell a, Cell b) const {
-    const auto at_a = complex_.cofaces(a), at_b = complex_.cofaces(b);
-    for (const Cell edge : at_a) {
-      if (!graph_.has(edge) || std::find(at_b.begin(), at_b.end(), edge) == at_b.end()) continue;
-      const auto of_edge = complex_.cofaces(edge);
-      if (std::none_of(of_edge.begin(), of_edge.end(), [&](Cell square) { return left_.has(square); }))
-        return edge;
-    }
-    return std::nullopt;
-  }
-
-  bool is_bored(std::vector<Cell> loop) const {
-    std::sort(loop.begin(), loop.end());
+  bool is_bored(const std::vector<Cell>& loop) const {
     std::vector<Vec3> places;
-    for (const auto& [i, j, k] : cells_of_vertices(solid_.lattice, loop))
-      places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    for (const CellPlace& cell : cells_of_vertices(solid_.lattice, loop)) places.push_back(vector_of(cell));
     for (std::size_t n = 0; n < loop.size(); ++n) {
       const double reach = kBored * radius_about(complex_, solid_.thickness, loop[n]);
       if (std::all_of(places.begin(), places.end(),

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/base/parity_rows.h"
+#include "core/collapse/collapse.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -25,10 +26,7 @@ struct Cycle {
   std::vector<char> linked;  // per loop of the solid's surface
 
   void add(const Cycle& other) {
-    std::vector<Cell> sum;
-    std::set_symmetric_difference(edges.begin(), edges.end(), other.edges.begin(), other.edges.end(),
-                                  std::back_inserter(sum));
-    edges = std::move(sum);
+    edges = parity_sum(edges, other.edges);
     for (std::size_t n = 0; n < linked.size(); ++n) linked[n] ^= other.linked[n];
   }
   bool has(Cell edge) const { return std::binary_search(edges.begin(), edges.end(), edge); }
@@ -45,13 +43,9 @@ class Tunnels {
     }
   }
 
-  // @param vertices of a loop of a graph, once round.
-  Cycle cycle_of(const std::vector<Cell>& vertices, const CellSet& graph) const {
-    Cycle cycle;
-    for (std::size_t n = 0; n < vertices.size(); ++n)
-      cycle.edges.push_back(
-          edge_between(vertices[n], vertices[(n + 1) % vertices.size()], graph, cycle.edges));
-    const std::vector<Vec3> places = places_along(vertices, cycle.edges);
+  Cycle cycle_of(const CellLoop& loop_in_graph) const {
+    Cycle cycle{loop_in_graph.edges, {}};
+    const std::vector<Vec3> places = places_along(loop_in_graph);
     for (const std::vector<Vec3>& loop : of_surface_) cycle.linked.push_back(is_linked(places, loop));
     std::sort(cycle.edges.begin(), cycle.edges.end());
     return cycle;
@@ -73,10 +67,7 @@ class Tunnels {
     Cell weakest = kNoCell;
     double least = 0;
     for (const Cell edge : cycle.edges) {
-      const auto cofaces = complex_.cofaces(edge);
-      if (anchored.has(edge) ||
-          std::any_of(cofaces.begin(), cofaces.end(), [&](Cell square) { return left.has(square); }))
-        continue;
+      if (anchored.has(edge) || !is_bare(complex_, edge, left)) continue;
       const double most = radius_about(complex_, radius_, edge);
       if (weakest != kNoCell && most >= least) continue;
       weakest = edge;
@@ -93,32 +84,18 @@ class Tunnels {
                                     cycle.linked.begin());
   }
 
-  Cell edge_between(Cell a, Cell b, const CellSet& graph, const std::vector<Cell>& taken) const {
-    const auto at_a = complex_.cofaces(a), at_b = complex_.cofaces(b);
-    return *std::find_if(at_a.begin(), at_a.end(), [&](Cell edge) {
-      return graph.has(edge) && std::find(at_b.begin(), at_b.end(), edge) != at_b.end() &&
-             std::find(taken.begin(), taken.end(), edge) == taken.end();
-    });
-  }
-
   // The same loop along sample points and lattice edges, which lie in the solid.  Scaled coordinates.
-  std::vector<Vec3> places_along(const std::vector<Cell>& vertices, const std::vector<Cell>& edges) const {
+  std::vector<Vec3> places_along(const CellLoop& loop) const {
+    const auto& [vertices, edges] = loop;
     std::vector<std::uint32_t> points;
     for (std::size_t n = 0; n < edges.size(); ++n) {
       const std::size_t next = (n + 1) % edges.size();
       append_way(vertices[next], complex_.star(edges[n]).members[0].cube,
                  complex_.star(edges[next]).members[0].cube, points);
     }
-    std::vector<std::uint32_t> sorted = points;
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    const std::vector<LatticePlace> known = lattice_places(lattice_, sorted);
     std::vector<Vec3> places;
-    for (const std::uint32_t point : points) {
-      const auto& [i, j, k] = known[static_cast<std::size_t>(
-          std::lower_bound(sorted.begin(), sorted.end(), point) - sorted.begin())];
-      places.push_back(scaled_place(lattice_, {double(i), double(j), double(k)}));
-    }
+    for (const LatticePlace& at : lattice_places(lattice_, points))
+      places.push_back(scaled_place(lattice_, vector_of(at)));
     return places;
   }
 
@@ -192,15 +169,8 @@ class OpenLines {
 
   // Spacings.
   std::vector<Vec3> places_of(const std::vector<Cell>& line) const {
-    std::vector<Cell> sorted = line;
-    std::sort(sorted.begin(), sorted.end());
-    const std::vector<CellPlace> cells = cells_of_vertices(lattice_, sorted);
     std::vector<Vec3> places;
-    for (const Cell vertex : line) {
-      const auto& [i, j, k] = cells[static_cast<std::size_t>(
-          std::lower_bound(sorted.begin(), sorted.end(), vertex) - sorted.begin())];
-      places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-    }
+    for (const CellPlace& cell : cells_of_vertices(lattice_, line)) places.push_back(vector_of(cell));
     return places;
   }
 
@@ -227,7 +197,7 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
   if (loops.size() > kMostTunnels || loops.size() <= betti_numbers(solid).holes) return {};
   const Tunnels tunnels(solid, lattice, complex, radius);
   std::vector<Cycle> cycles;
-  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop, graph));
+  for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop));
   cycles = Tunnels::bounding(std::move(cycles));
   CellSet anchored(complex);
   for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
-#include "core/collapse/collapse.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
 #include "core/lattice/lattice.h"

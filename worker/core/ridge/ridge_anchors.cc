@@ -8,7 +8,6 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
-#include "core/collapse/shortest_ways.h"
 
 namespace affskel::core {
 namespace {
@@ -182,26 +181,15 @@ class Choice {
     for (std::size_t n = 0; n < evidence_.limbs.size(); ++n) {
       const LimbTip& tip = evidence_.limbs[n];
       if (taken_.has(tip.vertex) ||
-          is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), reached) ||
-          (!evidence_.noisy.empty() && evidence_.noisy[n] && is_spike(tip, anchored)))
+          is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), reached))
         continue;
+      if (!evidence_.doubtful.empty() && evidence_.doubtful[n]) {
+        result_.doubtful.push_back(tip);
+        continue;
+      }
       take({tip.vertex, 0});
       ++result_.limbs;
     }
-  }
-
-  // Whether a limb no longer than the one that it stands on is thick ends no farther than that from what is anchored.
-  bool is_spike(const LimbTip& tip, const std::vector<char>& anchored) const {
-    const auto ends_in = [&](std::uint32_t cube, float way) {
-      const double thick =
-          constants_.end_spacings + constants_.end_radii * static_cast<double>(evidence_.thickness[cube]);
-      return anchored[cube] != 0 && std::max(tip.length, static_cast<double>(way)) <= thick;
-    };
-    const float thickest = *std::max_element(evidence_.thickness.begin(), evidence_.thickness.end());
-    return is_near(
-        complex_, tip.vertex,
-        static_cast<float>(constants_.end_spacings + constants_.end_radii * static_cast<double>(thickest)),
-        ends_in);
   }
 
   // How far from a tip what is anchored may end: so far from the surface, which is the tip's own radius farther away.

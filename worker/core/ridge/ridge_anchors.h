@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
-#include "core/collapse/collapse.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
+#include "core/collapse/shortest_ways.h"
 #include "core/contour/edge_cells.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
@@ -29,8 +29,7 @@ struct RidgeEvidence {
   std::span<const RidgeCurve> curves;     ///< from the lower bound on
   std::span<const LimbTip> limbs;         ///< of the solid
   std::span<const float> radius;          ///< per sample point: distance to the surface, spacings
-  std::span<const char> noisy;            ///< per limb: see noisy_limbs()
-  std::span<const float> thickness;       ///< per sample point, where there are such: see section_radii()
+  std::span<const char> doubtful;         ///< per limb, or empty: see possible_spikes()
 };
 
 /// A place on a ridge curve, for the vertex of the complex that is dual to its cell.
@@ -43,6 +42,7 @@ struct RidgeAnchors {
   std::vector<Anchor> anchors;     ///< each cell once
   std::vector<CurvePlace> curves;  ///< by vertex, each once
   std::uint32_t limbs = 0;         ///< tips among the anchors
+  std::vector<LimbTip> doubtful;   ///< that would be, but may be spikes
   /// Per cube: it belongs to a fragment, a component beside a larger one of the same part of the solid, where the
   /// lattice does not resolve it: it is nowhere three points thick.  No skeleton is wanted of it, unless it has a tunnel
   /// or a void, for these are the lattice's.
@@ -54,7 +54,7 @@ struct RidgeAnchors {
 /// 1. The surface where it is strong: squares with a vertex of s >= low, in pieces that vertices of s >= low
 ///    form, which have one of s >= high that is not round, and area enough.
 /// 2. Stretches of ridge curves, off that, that are long enough.
-/// 3. Tips of limbs that end far from both.  Spikes of noise end within the limb that they stand on.
+/// 3. Tips of limbs that end far from both.
 /// 4. In components of the complex that have none of these the longest stretch of a curve, or else the square
 ///    with the greatest E.
 /// The lower the bounds, the more.  A function of its arguments alone.

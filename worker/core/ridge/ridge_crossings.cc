@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/base/matrix3.h"
 #include "core/base/unit.h"
 
 namespace affskel::core {
@@ -10,13 +11,11 @@ namespace {
 // At the share t of an edge with the ends x and y.
 RidgeCrossing crossing_at(const Lattice& lattice, const RidgeValues& values, const LatticeEdge& edge,
                           std::uint32_t y, double t, const Vec3& across) {
-  std::array<double, 3> u{};
-  for (std::size_t k = 0; k < 3; ++k) u[k] = edge.place[k];
-  u[edge.axis] += t;
+  const Vec3 place = vector_of(edge.place) + t * kIdentity3[edge.axis];
   RidgeCrossing crossing;
   crossing.edge = edge;
   crossing.normal = unit(across);
-  crossing.at = values.at(RidgeValues::Of::kSurface, lattice.spacing * Vec3{u[0], u[1], u[2]},
+  crossing.at = values.at(RidgeValues::Of::kSurface, lattice.spacing * place,
                           std::array<std::uint32_t, 2>{edge.point, y}, std::array<double, 2>{1 - t, t},
                           crossing.normal);
   return crossing;

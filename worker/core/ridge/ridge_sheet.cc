@@ -12,16 +12,18 @@
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/dual_contour.h"
 #include "core/contour/edge_cells.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/solid_parts.h"
 #include "core/mesh/box.h"
+#include "core/mesh/laplacian.h"
 #include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
-#include "core/ridge/noisy_limbs.h"
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"
 #include "core/ridge/ridge_curves.h"
 #include "core/ridge/ridge_values.h"
 #include "core/ridge/skeleton_mesh.h"
+#include "core/ridge/spikes.h"
 #include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
@@ -33,18 +35,10 @@ struct Found {
   std::vector<RidgeCurve> curves;
 };
 
-// Lattice coordinates.
-Mesh mesh_in_lattice(const Solid& solid, const Lattice& lattice) {
-  const Matrix3 to_indices = inverse_transposed(lattice.grid.axes);
-  Mesh mesh = solid.mesh;
-  for (Vec3& place : mesh.points) place = transposed_times(to_indices, place - lattice.grid.origin);
-  return mesh;
-}
-
 Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
-                  const DistanceToMesh& nearest, const RidgeSheetOptions& options,
-                  const RidgeConstants& constants) {
-  const RidgeValues values(lattice, field, basis.derivatives, basis.radius, nearest,
+                  const DistanceToMesh& nearest, const DistanceToMesh* smoothed,
+                  const RidgeSheetOptions& options, const RidgeConstants& constants) {
+  const RidgeValues values(lattice, field, basis.derivatives, basis.radius, nearest, smoothed,
                            constants.weak_share * options.bounds.low, constants);
   throw_if_stopped(options.context);
   Found found;
@@ -88,6 +82,9 @@ std::vector<float> costs_of_ways(const FrameField& field, std::span<const float>
   return cost;
 }
 
+// Of a surface that noise makes cross itself: enough to hide noise as large as its triangles.
+constexpr int kSmoothings = 2;
+
 // The components of the complex that are left out go, to the last cell.
 void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet& cells) {
   for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube)
@@ -97,14 +94,10 @@ void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet
 std::vector<LatticeLoop> loops_of(const Lattice& lattice, const DualComplex& complex, const CellSet& thinned,
                                   ExecutionContext* context) {
   std::vector<LatticeLoop> result;
-  for (std::vector<DualComplex::Cell>& vertices : shortest_loops(complex, thinned, kMaxLoops, context)) {
-    std::sort(vertices.begin(), vertices.end());
+  for (const CellLoop& loop : shortest_loops(complex, thinned, kMaxLoops, context)) {
     Box box;
-    for (const CellPlace& cell : cells_of_vertices(lattice, vertices))
-      box.include(
-          Vec3{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])});
-    const Vec3 middle = 0.5 * (box.lowest() + box.highest()) + Vec3{0.5, 0.5, 0.5};
-    result.push_back({lattice.spacing * middle, norm(box.sides())});
+    for (const CellPlace& cell : cells_of_vertices(lattice, loop.vertices)) box.include(middle_of(cell));
+    result.push_back({lattice.spacing * (0.5 * (box.lowest() + box.highest())), norm(box.sides())});
   }
   return result;
 }
@@ -162,9 +155,17 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   if (basis.derivatives.size() != lattice.points)
     throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
   const SolidParts parts(solid, lattice);
-  const Mesh walls = mesh_in_lattice(solid, lattice);
+  const Mesh walls = surface_in_lattice(solid, lattice);
   const DistanceToMesh nearest(walls);
-  Found found = find_ridges(lattice, field, basis, nearest, options, constants);
+  Mesh without_noise;
+  std::optional<DistanceToMesh> smoothed;
+  if (solid.self_intersecting) {
+    without_noise = walls;
+    smooth(without_noise, kSmoothings);
+    smoothed.emplace(without_noise);
+  }
+  Found found =
+      find_ridges(lattice, field, basis, nearest, smoothed ? &*smoothed : nullptr, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
   edges.reserve(found.crossings.size());
@@ -172,8 +173,8 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
   std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
-  const std::vector<char> noisy =
-      noisy_limbs(solid, walls, lattice, basis.complex, basis.radius, basis.limbs);
+  SpikyLimbs limbs{basis.complex, basis.radius, basis.thickness, basis.limbs};
+  const std::vector<char> doubtful = possible_spikes(solid, walls, lattice, limbs, constants);
   const RidgeEvidence evidence{.complex = basis.complex,
                                .parts = parts,
                                .field = field,
@@ -183,11 +184,16 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .curves = found.curves,
                                .limbs = basis.limbs,
                                .radius = basis.radius,
-                               .noisy = noisy,
-                               .thickness = basis.thickness};
-  const RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
-  Collapsed left = collapse(basis.complex, chosen.anchors,
-                            {.cost = costs_of_ways(field, basis.radius), .context = options.context});
+                               .doubtful = doubtful};
+  RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
+  const CollapseOptions in_the_middle{.cost = costs_of_ways(field, basis.radius), .context = options.context};
+  Collapsed left = collapse(basis.complex, chosen.anchors, in_the_middle);
+  limbs.tips = chosen.doubtful;
+  if (const auto real = limbs_without_spikes(limbs, left.cells, constants); !real.empty()) {
+    for (const LimbTip& tip : real) chosen.anchors.push_back({tip.vertex, 0});
+    chosen.limbs += static_cast<std::uint32_t>(real.size());
+    left = collapse(basis.complex, chosen.anchors, in_the_middle);
+  }
   if (count_components(basis.complex, left.cells) != basis.topology.components)
     throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
   drop(basis.complex, chosen.left_out, left.cells);

@@ -49,11 +49,13 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 
 RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
                          std::span<const PointDerivatives> derivatives, std::span<const float> radius,
-                         const DistanceToMesh& surface, double min_strength, const RidgeConstants& constants)
+                         const DistanceToMesh& surface, const DistanceToMesh* smoothed, double min_strength,
+                         const RidgeConstants& constants)
     : field_(field),
       derivatives_(derivatives),
       radius_(radius),
       surface_(surface),
+      smoothed_(smoothed),
       constants_(constants),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
@@ -71,8 +73,10 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
 bool RidgeValues::is_deep(const SheetVertex& vertex) const {
   const auto radius = static_cast<double>(radius_[vertex.point]);
   const double least = constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
-  if (radius < constants_.min_radius) return false;
-  return is_surely_deep(radius, least) || surface_.nearest((1 / field_.spacing) * vertex.position) >= least;
+  const Vec3 place = (1 / field_.spacing) * vertex.position;
+  return (radius >= constants_.min_radius &&
+          (is_surely_deep(radius, least) || surface_.nearest(place) >= least)) ||
+         (smoothed_ != nullptr && smoothed_->nearest(place) >= least);
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

@@ -44,11 +44,12 @@ class RidgeValues {
   /// @param derivatives of this field.
   /// @param radius per sample point: see surface_distance().
   /// @param surface of the solid, lattice coordinates.
+  /// @param smoothed where noise makes the surface cross itself, the same without it: what is deep below either is deep.
   /// @param min_strength least s that is asked for, radians: points far below it are left out.
   /// @throws CoreError kBadInput when the strength is out of range.
   RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
-              std::span<const float> radius, const DistanceToMesh& surface, double min_strength,
-              const RidgeConstants& constants = {});
+              std::span<const float> radius, const DistanceToMesh& surface, const DistanceToMesh* smoothed,
+              double min_strength, const RidgeConstants& constants = {});
 
   const PointRidge& ridge(std::uint32_t point) const {
     static constexpr PointRidge kNoRidge;
@@ -83,6 +84,7 @@ class RidgeValues {
   std::span<const PointDerivatives> derivatives_;
   std::span<const float> radius_;
   const DistanceToMesh& surface_;
+  const DistanceToMesh* smoothed_;
   RidgeConstants constants_;
   double min_strength_;
   Matrix3 to_mesh_;  // F^-T
@@ -93,10 +95,5 @@ class RidgeValues {
   std::vector<Group> groups_;
   std::deque<PointRidge> ridges_;  // of points that have one
 };
-
-/// The entries of PointRidge and PointDerivatives as vectors.
-inline Vec3 vector_of(const std::array<float, 3>& v) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
 
 }  // namespace affskel::core

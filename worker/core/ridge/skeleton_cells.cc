@@ -17,17 +17,6 @@ std::size_t place_in(const std::vector<Cell>& cells, Cell cell) {
   return static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
 }
 
-template <class Wanted>
-Groups<std::uint32_t> neighbours_along(const SkeletonCells& cells, const Wanted& wanted) {
-  return {cells.vertices.size(), [&](const auto& put) {
-            for (std::size_t s = 0; s < cells.segments.size(); ++s) {
-              if (!wanted(cells.squares_at[s])) continue;
-              put(cells.segments[s][0], cells.segments[s][1]);
-              put(cells.segments[s][1], cells.segments[s][0]);
-            }
-          }};
-}
-
 }  // namespace
 
 SkeletonCells::SkeletonCells(const DualComplex& complex, const CellSet& left) {
@@ -128,19 +117,16 @@ std::uint32_t SkeletonCells::number(Cell vertex) const {
   return static_cast<std::uint32_t>(place_in(vertices, vertex));
 }
 
-std::array<std::uint32_t, 2> SkeletonCells::ends(const DualComplex& complex, Cell edge) const {
-  std::array<std::uint32_t, 2> result{};
-  std::size_t n = 0;
-  complex.for_each_face(edge, [&](Cell vertex) { result[n++] = number(vertex); });
-  return result;
+Segment SkeletonCells::ends(const DualComplex& complex, Cell edge) const {
+  const auto [lower, upper] = complex.ends(edge);
+  return {number(lower), number(upper)};
 }
 
-Groups<std::uint32_t> SkeletonCells::neighbours() const {
-  return neighbours_along(*this, [](std::uint8_t) { return true; });
-}
-
-Groups<std::uint32_t> SkeletonCells::rim_neighbours() const {
-  return neighbours_along(*this, [](std::uint8_t count) { return count == 1; });
+Adjacency SkeletonCells::rim_neighbours() const {
+  std::vector<Segment> rim;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    if (squares_at[s] == 1) rim.push_back(segments[s]);
+  return neighbours(vertices.size(), rim);
 }
 
 }  // namespace affskel::core

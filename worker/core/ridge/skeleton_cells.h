@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/groups.h"
 #include "core/collapse/dual_complex.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 
@@ -23,21 +23,19 @@ class SkeletonCells {
   /// Of a vertex: its place among `vertices`, or that of what comes after it.
   std::uint32_t number(Cell vertex) const;
 
-  /// Of each vertex those at the other ends of its segments; and of those segments alone that have one square.
-  Groups<std::uint32_t> neighbours() const;
-  Groups<std::uint32_t> rim_neighbours() const;
+  /// Of each vertex those at the other ends of its segments that have one square.
+  Adjacency rim_neighbours() const;
 
   std::vector<Cell> vertices;  ///< ascending; edges and squares are those in their middles
   std::vector<Cell> squares;   ///< ascending
   std::vector<std::array<std::uint32_t, 4>> rings;  ///< per square: its corners, once round
   std::vector<char> fanned;                         ///< per square: it has a vertex in its middle
-  std::vector<std::array<std::uint32_t, 3>> fans;   ///< the triangles about these, which come first
-  std::vector<std::array<std::uint32_t, 2>>
-      segments;                          ///< the ends of edges, and from middles of squares outwards
+  std::vector<Triangle> fans;                       ///< about these, which come first
+  std::vector<Segment> segments;         ///< the ends of edges, and from middles of squares outwards
   std::vector<std::uint8_t> squares_at;  ///< per segment: how many squares have it
 
  private:
-  std::array<std::uint32_t, 2> ends(const DualComplex& complex, Cell edge) const;
+  Segment ends(const DualComplex& complex, Cell edge) const;
   void find_rings(const DualComplex& complex);
   std::vector<char> doubled_edges() const;
   void find_fanned(const DualComplex& complex, const std::vector<Cell>& edges,

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/groups.h"
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/edges.h"
 #include "core/mesh/patch_senses.h"
 #include "core/ridge/ridge_values.h"
 #include "core/ridge/skeleton_cells.h"
@@ -36,7 +36,7 @@ class Placing {
         membership_(solid.mesh),
         to_mesh_(inverse_transposed(frame_matrix(from.lattice))),
         cells_(complex, left),
-        neighbours_(cells_.neighbours()),
+        neighbours_(neighbours(cells_.vertices.size(), cells_.segments)),
         rim_neighbours_(cells_.rim_neighbours()) {}
 
   SheetMesh run(ExecutionContext* context) {
@@ -132,9 +132,7 @@ class Placing {
     return result;
   }
 
-  bool inside(const Vec3& u) const {
-    return membership_.contains(scaled_place(from_.lattice, (1 / from_.lattice.spacing) * u));
-  }
+  bool inside(const Vec3& u) const { return membership_.contains(scaled_from_frame(from_.lattice, u)); }
 
   bool weak(std::uint32_t v) const { return mesh_.vertices[v].strength < from_.low; }
 
@@ -214,7 +212,7 @@ class Placing {
   const Vec3& place(std::uint32_t v) const { return mesh_.vertices[v].position; }
 
   // From a vertex to the mean of its neighbours.
-  Vec3 way_to_mean(std::uint32_t v, const Groups<std::uint32_t>& neighbours) const {
+  Vec3 way_to_mean(std::uint32_t v, const Adjacency& neighbours) const {
     const auto around = neighbours[v];
     Vec3 way;
     for (const std::uint32_t to : around)
@@ -325,12 +323,12 @@ class Placing {
   }
 
   void make_faces() {
-    mesh_.triangles.assign(cells_.fans.begin(), cells_.fans.end());
+    mesh_.triangles = cells_.fans;
     for (std::size_t s = 0; s < cells_.rings.size(); ++s)
       if (!cells_.fanned[s]) add_quad(cells_.rings[s], mesh_);
     agree_on_senses(mesh_.vertices.size(), mesh_.triangles);
     for (std::size_t s = 0; s < cells_.segments.size(); ++s)
-      if (cells_.squares_at[s] == 0) mesh_.segments.push_back({cells_.segments[s][0], cells_.segments[s][1]});
+      if (cells_.squares_at[s] == 0) mesh_.segments.push_back(cells_.segments[s]);
   }
 
   // A ball that the surface does not enter.
@@ -344,7 +342,7 @@ class Placing {
   SolidMembership membership_;
   Matrix3 to_mesh_;  // F^-T
   SkeletonCells cells_;
-  Groups<std::uint32_t> neighbours_, rim_neighbours_;
+  Adjacency neighbours_, rim_neighbours_;
   std::vector<char> bound_;                         // per vertex: its place and values are known
   std::vector<Clear> clear_;                        // per vertex, of those near the surface
   std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point

@@ -9,7 +9,6 @@
 
 #include "core/base/parallel.h"
 #include "core/base/plain_math.h"
-#include "core/base/require.h"
 #include "core/base/vec3.h"
 #include "core/ridge/continued_field.h"
 #include "core/ridge/local_depth.h"

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/matrix3.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/row_band.h"
 #include "core/spatial/point_index.h"
@@ -18,11 +17,7 @@ constexpr double kReached = 2;  // spacings: sample points so near tell of a cor
 class Ends {
  public:
   Ends(const Solid& solid, const Lattice& lattice, std::span<const char> left_out)
-      : solid_(solid),
-        grid_(lattice.grid),
-        to_indices_(inverse_transposed(grid_.axes)),
-        band_(lattice, 0),
-        counts_(band_.places(), 0) {
+      : solid_(solid), indices_of_(lattice), band_(lattice, 0), counts_(band_.places(), 0) {
     for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       counts_[static_cast<std::size_t>(band_.at(i, j, k))] = left_out[rank] == 0;
     });
@@ -34,7 +29,7 @@ class Ends {
     std::vector<char> far(points.size());
     bool any = false;
     for (std::size_t p = 0; p < points.size(); ++p, stop.did(100)) {
-      far[p] = !is_reached(indices_of(points[p]));
+      far[p] = !is_reached(indices_of_(points[p]));
       any = any || far[p] != 0;
     }
     if (!any) return {};
@@ -61,8 +56,6 @@ class Ends {
   }
 
  private:
-  Vec3 indices_of(const Vec3& scaled) const { return transposed_times(to_indices_, scaled - grid_.origin); }
-
   // Whether a sample point that counts lies within kReached.
   bool is_reached(const Vec3& at) const {
     return band_.any_near(at, kReached, [&](std::size_t place, double square) {
@@ -71,8 +64,7 @@ class Ends {
   }
 
   const Solid& solid_;
-  const LatticeGrid& grid_;
-  Matrix3 to_indices_;  // its transposed inverse
+  LatticeIndices indices_of_;
   RowBand band_;
   std::vector<char> counts_;  // per place of the band: a sample point that has a skeleton
 };

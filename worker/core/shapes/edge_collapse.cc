@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <cstdint>
-#include <vector>
 
 #include "core/base/error.h"
 

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/laplacian.h"
+
 namespace affskel::core {
 namespace {
 
@@ -221,22 +223,9 @@ Mesh mesh_zero_set(const ImplicitFunction& f, const ImplicitMeshOptions& options
 }
 
 void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh, double max_move) {
-  std::vector<Vec3> sum(mesh.points.size());
-  std::vector<std::uint32_t> count(mesh.points.size());
   for (int round = 0; round < rounds; ++round) {
-    std::fill(sum.begin(), sum.end(), Vec3{});
-    std::fill(count.begin(), count.end(), 0);
-    for (const Triangle& t : mesh.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {  // every edge is met once in this direction
-        sum[t[k]] = sum[t[k]] + mesh.points[t[(k + 1) % 3]];
-        ++count[t[k]];
-      }
-    }
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-      if (count[v] == 0) continue;
-      const Vec3 mean = (1.0 / count[v]) * sum[v];
-      mesh.points[v] = project(f, step, max_move, 0.5 * (mesh.points[v] + mean));
-    }
+    smooth(mesh, 1);
+    for (Vec3& place : mesh.points) place = project(f, step, max_move, place);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "core/shapes/shapes.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -3,13 +3,15 @@
 // average outward flux is their H / 26, and 7 / 26 keeps the same points, up to rounding.
 #include "core/shocks/average_outward_flux.h"
 
+#include <numbers>
+
 #include "core/shocks/neighbourhood.h"
 
 namespace affskel::core {
 namespace {
 
 // 1 / |s| by the number of axes that s leaves along, 1 to 3.
-constexpr std::array<double, 4> kInverseLength{0, 1, 0.70710678118654752440, 0.57735026918962576451};
+constexpr std::array<double, 4> kInverseLength{0, 1, std::numbers::sqrt2 / 2, std::numbers::inv_sqrt3};
 
 // Opposite neighbours together, so that equal normals give exactly 0.
 double mean_flux(const Neighbourhood& normals) {

@@ -34,15 +34,9 @@ constexpr std::array kOperators = {
                       central_difference_divergence},
     ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel",
                       [](double) { return base::kZuckerHummelThreshold; },
-                      [](const Lattice& lattice, const DirectionSet& directions,
-                         const OptimalDirections& optimal, ExecutionContext* context) {
-                        return zucker_hummel_divergence(lattice, directions, optimal, {}, context);
-                      }},
+                      zucker_hummel_divergence},
     ShockOperatorInfo{ShockOperator::kSobel, "sobel", [](double) { return kSobelThreshold; },
-                      [](const Lattice& lattice, const DirectionSet& directions,
-                         const OptimalDirections& optimal, ExecutionContext* context) {
-                        return sobel_divergence(lattice, directions, optimal, {}, context);
-                      }},
+                      sobel_divergence},
     ShockOperatorInfo{ShockOperator::kFlux, "flux", [](double) { return kAverageOutwardFluxThreshold; },
                       average_outward_flux},
 };

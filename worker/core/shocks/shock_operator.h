@@ -40,7 +40,7 @@ double default_threshold(ShockOperator shock_operator, double spacing);
 /// 2003, section 6.2.2); its upper step, the factor 9/7, is used for every operator.
 double next_threshold(double threshold);
 
-/// H at every sample point by the given operator with its default options.
+/// H at every sample point by the given operator.
 /// @param directions unit normals in the lattice's frame (see frame_directions).
 /// @param context asked at every layer of the lattice whether to stop; may be null.
 /// @throws CoreError kCancelled when the context asks to stop.

@@ -8,11 +8,9 @@
 namespace affskel::core {
 
 std::vector<double> sobel_divergence(const Lattice& lattice, const DirectionSet& directions,
-                                     const OptimalDirections& optimal, const SobelOptions& options,
-                                     ExecutionContext* context) {
-  return at_every_point(lattice, directions, optimal, context, [&](const Neighbourhood& normals) {
-    return weighted_plane_differences(normals,
-                                      {options.face_weight, options.edge_weight, options.corner_weight});
+                                     const OptimalDirections& optimal, ExecutionContext* context) {
+  return at_every_point(lattice, directions, optimal, context, [](const Neighbourhood& normals) {
+    return weighted_plane_differences(normals, {4, 2, 1});
   });
 }
 

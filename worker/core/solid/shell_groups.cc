@@ -1,7 +1,6 @@
 #include "core/solid/shell_groups.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/disjoint_sets.h"
 #include "core/spatial/self_intersection.h"

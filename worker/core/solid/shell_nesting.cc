@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 
 #include "core/solid/shell_groups.h"
 #include "core/spatial/ray_crossing.h"

@@ -1,7 +1,6 @@
 #include "core/solid/surface_loops.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

@@ -156,10 +156,7 @@ class Search {
     std::vector<std::uint32_t> candidates;
     StopCheck stop(options_.context);
     for (auto i = static_cast<std::uint32_t>(begin); i < end && pairs.size() < options_.max_pairs; ++i) {
-      if (degenerate_[i] != 0) {
-        if (options_.degenerate_triangles) pairs.emplace_back(i, i);
-        continue;
-      }
+      if (degenerate_[i] != 0) continue;
       candidates.clear();
       close.visit_above(i, [&](std::uint32_t j) {
         stop.did(kOperationsPerVisit);

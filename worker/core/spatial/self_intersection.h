@@ -11,19 +11,16 @@
 namespace affskel::core {
 
 struct SelfIntersectionOptions {
-  std::size_t max_pairs = 10;  ///< stop after this many
-  /// Also report every degenerate triangle (corners equal or on one line) as a pair with itself, as CGAL
-  /// does.
-  bool degenerate_triangles = false;
+  std::size_t max_pairs = 10;           ///< stop after this many
   unsigned threads = 1;                 ///< >= 1; the pairs do not depend on it
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
-/// The first `options.max_pairs` pairs (i, j), in lexicographic order, of triangles that share a point
-/// which their common vertices and edges do not account for; i < j.  Two triangles folded flat onto
-/// each other, or the same triangle twice, count.  Vertices are common when their indices are equal, not
-/// when their places are: weld first.  A degenerate triangle i is reported at most as (i, i) and takes no
-/// other part: in a closed mesh its neighbours have its edges, so nothing that crosses there is missed.
+/// The first `options.max_pairs` pairs (i, j), in lexicographic order, of triangles that share a point which
+/// their common vertices and edges do not account for; i < j.  Two triangles folded flat onto each other, or
+/// the same triangle twice, count.  Vertices are common when their indices are equal, not when their places
+/// are: weld first.  A degenerate triangle (corners equal or on one line) takes no part: in a closed mesh its
+/// neighbours have its edges, so nothing that crosses there is missed.
 ///
 /// Any mesh will do: open, not manifold, with unused vertices.  Decisions are exact (CGAL's exact
 /// predicates; the rules are those of Polygon_mesh_processing::self_intersections).  Time grows with the

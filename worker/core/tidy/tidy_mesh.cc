@@ -5,7 +5,6 @@
 #include "core/tidy/tidy_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <iterator>
 #include <span>

@@ -37,7 +37,7 @@ BettiNumbers betti(const ChordSheet& sheet) {
   Mesh mesh;
   for (const SheetVertex& v : sheet.vertices) mesh.points.push_back(v.position);
   mesh.triangles = sheet.triangles;
-  return sheet_topology(mesh).betti;
+  return sheet_betti_numbers(mesh);
 }
 
 // The vertices at least `far` from the rim, and all of them.

@@ -47,7 +47,7 @@ TEST(Collapse, KeepsTheTopologyOfRandomSolidsOntoRandomAnchors) {
     const Collapsed left = collapse(complex, anchors);
     const CellMesh mesh = mesh_of_cells(complex, left.cells);
     EXPECT_EQ(mesh.cubes, 0U) << seed;
-    const BettiNumbers found = sheet_topology(mesh.mesh, mesh.segments).betti;
+    const BettiNumbers found = sheet_betti_numbers(mesh.mesh, mesh.segments);
     EXPECT_EQ(found, betti_numbers(complex)) << seed;
     EXPECT_EQ(count_components(complex, left.cells), betti_numbers(complex).components) << seed;
     if (left.opened > 0) continue;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/collapse/collapse.h"
@@ -19,7 +21,7 @@ std::vector<std::size_t> lengths(const Mesh& mesh, double spacing, std::size_t c
   const DualComplex complex(solid.lattice);
   std::vector<std::size_t> result;
   for (const auto& loop : shortest_loops(complex, collapse(complex, {}).cells, count))
-    result.push_back(loop.size());
+    result.push_back(loop.edges.size());
   return result;
 }
 
@@ -38,6 +40,22 @@ TEST(ShortestLoops, BeginWithTheSmallest) {
   ASSERT_EQ(both.size(), 2U);
   EXPECT_LT(both[0], both[1]);
   EXPECT_EQ(lengths(rings, 0.11, 1), std::vector<std::size_t>{both[0]});
+}
+
+TEST(ShortestLoops, LeadAlongTheirEdges) {
+  const LatticeSolid solid(joined(make_torus(2, 0.4, 1024), moved(make_torus(1, 0.4, 1024), {3, 0, 0})),
+                           0.11);
+  const DualComplex complex(solid.lattice);
+  const CellSet left = collapse(complex, {}).cells;
+  for (const auto& [vertices, edges] : shortest_loops(complex, left, 9)) {
+    ASSERT_EQ(edges.size(), vertices.size());
+    for (std::size_t n = 0; n < edges.size(); ++n) {
+      EXPECT_TRUE(left.has(edges[n]) && is_bare(complex, edges[n], left));
+      auto ends = complex.ends(edges[n]);
+      if (ends[0] != vertices[n]) std::swap(ends[0], ends[1]);
+      EXPECT_EQ(ends, (std::array{vertices[n], vertices[(n + 1) % vertices.size()]}));
+    }
+  }
 }
 
 // Without cavities what is left is a graph, and its cycles are the tunnels.

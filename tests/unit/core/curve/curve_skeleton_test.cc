@@ -25,7 +25,7 @@ namespace affskel::core {
 namespace {
 
 BettiNumbers betti(const SheetMesh& curve) {
-  return sheet_topology(mesh_of(curve), curve.segments).betti;
+  return sheet_betti_numbers(mesh_of(curve), curve.segments);
 }
 
 double length_of(const SheetMesh& curve) {

@@ -42,7 +42,7 @@ SheetMesh flat_sheet(
 BettiNumbers betti(const SheetMesh& sheet, const SheetLines& lines) {
   Mesh mesh;
   for (const std::uint32_t v : lines.vertices) mesh.points.push_back(sheet.vertices[v].position);
-  return sheet_topology(mesh, lines.segments).betti;
+  return sheet_betti_numbers(mesh, lines.segments);
 }
 
 std::vector<std::uint32_t> ends_of(const SheetLines& lines) {
@@ -162,7 +162,7 @@ TEST(SheetLines, KeepPiecesAndTunnels) {
         sheet.triangles.push_back({n, n + step[a] + step[b], n + step[b]});
       }
     }
-    const BettiNumbers before = sheet_topology(mesh_of(sheet), sheet.segments).betti;
+    const BettiNumbers before = sheet_betti_numbers(mesh_of(sheet), sheet.segments);
     std::vector<char> ends(sheet.vertices.size(), 0);
     for (char& end : ends) end = chance(12);
     const SheetLines lines = sheet_lines(sheet, ends);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -22,6 +24,9 @@ TEST(LatticePlaces, AreWhereTheWalkOverAllPointsFindsThem) {
     }
   }
   EXPECT_EQ(lattice_places(lattice, some), expected);
+  std::reverse(some.begin(), some.end());
+  std::reverse(expected.begin(), expected.end());
+  EXPECT_EQ(lattice_places(lattice, some), expected);
   EXPECT_TRUE(lattice_places(lattice, {}).empty());
 }
 
@@ -33,6 +38,8 @@ TEST(ScaledPlace, IsThePlaceOfTheSamplePoint) {
   const Vec3 expected = SamplePlaces(solid, lattice).at(3, 4, 5);
   const Vec3 found = solid.centre + solid.scale() * scaled_place(lattice, {3, 4, 5});
   EXPECT_NEAR(norm(found - expected), 0, 1e-14);
+  EXPECT_EQ(scaled_from_frame(lattice, lattice.spacing * Vec3{3, 4, 5}), scaled_place(lattice, {3, 4, 5}));
+  EXPECT_NEAR(norm(LatticeIndices(lattice)(scaled_place(lattice, {3, 4, 5})) - Vec3{3, 4, 5}), 0, 1e-12);
 }
 
 }  // namespace

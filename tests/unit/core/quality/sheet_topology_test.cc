@@ -41,35 +41,29 @@ Mesh cube(bool with_lid, bool with_wall) {
   return mesh;
 }
 
-void expect_topology(const Mesh& sheet, const BettiNumbers& betti, std::uint64_t loops,
-                     std::uint64_t branches) {
-  const SheetTopology found = sheet_topology(sheet);
-  EXPECT_EQ(found.betti.components, betti.components);
-  EXPECT_EQ(found.betti.holes, betti.holes);
-  EXPECT_EQ(found.betti.cavities, betti.cavities);
-  EXPECT_EQ(found.boundary_loops, loops);
-  EXPECT_EQ(found.branch_edges, branches);
+void expect_topology(const Mesh& sheet, const BettiNumbers& betti) {
+  EXPECT_EQ(sheet_betti_numbers(sheet), betti);
 }
 
 TEST(SheetTopology, OfNothingAndOfATriangle) {
-  expect_topology({}, {0, 0, 0}, 0, 0);
+  expect_topology({}, {0, 0, 0});
   Mesh lone;
   lone.points.resize(5);  // two of them used by nothing: pieces of their own
   lone.triangles = {{1, 2, 4}};
-  expect_topology(lone, {3, 0, 0}, 1, 0);
+  expect_topology(lone, {3, 0, 0});
 }
 
 TEST(SheetTopology, OfBands) {
-  expect_topology(band(6, false), {1, 1, 0}, 2, 0);
-  expect_topology(band(7, true), {1, 1, 0}, 1, 0);
+  expect_topology(band(6, false), {1, 1, 0});
+  expect_topology(band(7, true), {1, 1, 0});
   Mesh two = joined(band(6, false), band(7, true));
-  expect_topology(two, {2, 2, 0}, 3, 0);
+  expect_topology(two, {2, 2, 0});
 }
 
 TEST(SheetTopology, OfClosedSurfaces) {
-  expect_topology(make_sphere(1, 80), {1, 0, 1}, 0, 0);
-  expect_topology(make_torus(3, 1, 128), {1, 2, 1}, 0, 0);
-  expect_topology(hollow_ball(), {2, 0, 2}, 0, 0);
+  expect_topology(make_sphere(1, 80), {1, 0, 1});
+  expect_topology(make_torus(3, 1, 128), {1, 2, 1});
+  expect_topology(hollow_ball(), {2, 0, 2});
 }
 
 TEST(SheetTopology, OfSheetsThatBranch) {
@@ -77,30 +71,30 @@ TEST(SheetTopology, OfSheetsThatBranch) {
   Mesh wings;
   wings.points.resize(5);
   wings.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
-  expect_topology(wings, {1, 0, 0}, 1, 1);
+  expect_topology(wings, {1, 0, 0});
   // Two triangles that meet at a vertex only.
   Mesh tie;
   tie.points.resize(5);
   tie.triangles = {{0, 1, 2}, {0, 3, 4}};
-  expect_topology(tie, {1, 0, 0}, 1, 0);
+  expect_topology(tie, {1, 0, 0});
 }
 
 // The wall shares the diagonals of floor and lid and two upright edges, where three triangles meet or four.
 TEST(SheetTopology, CountsChambers) {
-  expect_topology(cube(true, false), {1, 0, 1}, 0, 0);
-  expect_topology(cube(false, false), {1, 0, 0}, 1, 0);
-  expect_topology(cube(true, true), {1, 0, 2}, 0, 4);
+  expect_topology(cube(true, false), {1, 0, 1});
+  expect_topology(cube(false, false), {1, 0, 0});
+  expect_topology(cube(true, true), {1, 0, 2});
   // Without the lid no chamber is closed.
-  EXPECT_EQ(sheet_topology(cube(false, true)).betti, (BettiNumbers{1, 0, 0}));
+  EXPECT_EQ(sheet_betti_numbers(cube(false, true)), (BettiNumbers{1, 0, 0}));
   // A fin on a closed surface changes nothing.
   Mesh finned = cube(true, false);
   finned.points.resize(9);
   finned.triangles.push_back({0, 1, 8});
-  expect_topology(finned, {1, 0, 1}, 1, 1);
+  expect_topology(finned, {1, 0, 1});
 }
 
 BettiNumbers with_segments(const Mesh& sheet, const std::vector<std::array<std::uint32_t, 2>>& segments) {
-  return sheet_topology(sheet, segments).betti;
+  return sheet_betti_numbers(sheet, segments);
 }
 
 TEST(SheetTopology, CountsCurves) {
@@ -113,7 +107,6 @@ TEST(SheetTopology, CountsCurves) {
   two.triangles = {{0, 1, 2}};
   EXPECT_EQ(with_segments(two, {{2, 3}, {3, 4}, {4, 0}, {1, 5}}), (BettiNumbers{1, 1, 0}));
   EXPECT_EQ(with_segments(two, {{1, 0}, {2, 3}, {3, 2}}), (BettiNumbers{3, 0, 0}));
-  EXPECT_EQ(sheet_topology(two, std::vector<std::array<std::uint32_t, 2>>{{2, 3}}).boundary_loops, 1U);
   // Two spheres, joined by two curves.
   Mesh balls = joined(make_sphere(1, 20), make_sphere(1, 20));
   const auto second = static_cast<std::uint32_t>(balls.points.size() / 2);

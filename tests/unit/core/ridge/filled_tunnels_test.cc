@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/collapse/collapse.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/quality/sheet_topology.h"
 #include "core/ridge/local_depth.h"
@@ -38,7 +39,7 @@ Filled filled(const Mesh& mesh, double spacing) {
   result.complex = betti_numbers(complex);
   result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left).number;
   const CellMesh cells = mesh_of_cells(complex, left);
-  result.skeleton = sheet_topology(cells.mesh, cells.segments).betti;
+  result.skeleton = sheet_betti_numbers(cells.mesh, cells.segments);
   return result;
 }
 

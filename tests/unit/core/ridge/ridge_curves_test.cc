@@ -48,7 +48,7 @@ std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field
   const std::vector<float> everywhere(box.lattice.points, radius);
   const Mesh wall = moved(make_box(1, 1, 1), {-1.5 * radius, 0, 0});  // lattice coordinates
   const DistanceToMesh nearest(wall);
-  const RidgeValues values(box.lattice, field, derivatives, everywhere, nearest, min_strength);
+  const RidgeValues values(box.lattice, field, derivatives, everywhere, nearest, nullptr, min_strength);
   return ridge_curves(box.lattice, values, context);
 }
 

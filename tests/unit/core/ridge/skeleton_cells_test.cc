@@ -24,7 +24,7 @@ BettiNumbers topology_of(const SkeletonCells& cells) {
   std::vector<Segment> segments;
   for (std::size_t n = 0; n < cells.segments.size(); ++n)
     if (cells.squares_at[n] == 0) segments.push_back({cells.segments[n][0], cells.segments[n][1]});
-  return sheet_topology(mesh, segments).betti;
+  return sheet_betti_numbers(mesh, segments);
 }
 
 // Every cell but the cubes is left.  On lattices this coarse many gaps are thinner than the spacing, where cells of
@@ -42,7 +42,7 @@ TEST(SkeletonCells, KeepTheTopologyWhereCellsHaveTheSameCorners) {
     });
     const SkeletonCells cells(complex, left);
     const CellMesh own = mesh_of_cells(complex, left);
-    EXPECT_EQ(topology_of(cells), sheet_topology(own.mesh, own.segments).betti) << seed;
+    EXPECT_EQ(topology_of(cells), sheet_betti_numbers(own.mesh, own.segments)) << seed;
     std::uint64_t centres = 0;
     for (const char with_centre : cells.fanned) centres += with_centre != 0;
     fanned += centres;

@@ -1,7 +1,7 @@
+#include <bit>
 #include <cmath>
 #include <string>
 
-#include "base/coding.h"
 #include "core/files/read/shape_parsers.h"
 
 namespace affskel::core {

@@ -1,6 +1,5 @@
 #include "core/files/read/voxel_numbers.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

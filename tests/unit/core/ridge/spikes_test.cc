@@ -1,0 +1,80 @@
+#include "core/ridge/spikes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "core/collapse/lattice_solids.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/local_depth.h"
+#include "core/shapes/shapes.h"
+
+namespace affskel::core {
+namespace {
+
+using Cell = DualComplex::Cell;
+
+// A beam along x, the box's low corner at the origin, 40 spacings long; its tips are the lattice's first and last
+// vertices.
+struct Beam {
+  LatticeSolid solid{make_box(20, 2, 2, 20), 0.5};
+  DualComplex complex{solid.lattice};
+  std::vector<float> radius = surface_distance(solid.lattice);
+  std::vector<float> thickness;
+  std::vector<LimbTip> tips{2};
+
+  explicit Beam(float thick) : thickness(solid.lattice.points, thick) {
+    tips[0].vertex = complex.cell(0, DualComplex::kUpperVertex);
+    complex.for_each_cell([&](Cell cell) {
+      if (DualComplex::dimension(cell) == 0 && complex.star(cell).count == 8) tips[1].vertex = cell;
+    });
+  }
+
+  SpikyLimbs limbs() const { return {complex, radius, thickness, tips}; }
+
+  Mesh walls() const { return surface_in_lattice(solid.solid, solid.lattice); }
+
+  // The last tip's vertex alone.
+  CellSet skeleton() const {
+    CellSet cells(complex);
+    cells.insert(tips[1].vertex);
+    return cells;
+  }
+};
+
+TEST(Spikes, MayBeWhereTheSurfaceCrossesItselfAboutATip) {
+  Beam beam(2);
+  const Mesh walls = beam.walls();
+  const auto possible = [&] {
+    return possible_spikes(beam.solid.solid, walls, beam.solid.lattice, beam.limbs());
+  };
+  EXPECT_TRUE(possible().empty());
+  for (std::uint32_t t = 0; t < walls.triangles.size(); ++t) {
+    const auto& [a, b, c] = walls.triangles[t];
+    if ((walls.points[a].x + walls.points[b].x + walls.points[c].x) / 3 < 8)  // spacings
+      beam.solid.solid.crossings.emplace_back(t, t);
+  }
+  ASSERT_FALSE(beam.solid.solid.crossings.empty());
+  EXPECT_EQ(possible(), (std::vector<char>{1, 0}));
+  beam.tips[0].length = 1 + 1.2 * 2 + 0.01;
+  EXPECT_EQ(possible(), (std::vector<char>{0, 0}));
+}
+
+// 38 spacings from the skeleton: as far as a spike of that length may be from that of a limb 15 thick.
+TEST(Spikes, AreNoLongerThanTheirLimbIsThick) {
+  Beam beam(15.5);
+  beam.tips.resize(1);
+  const CellSet skeleton = Beam(15.5).skeleton();
+  const auto limbs = [&](double length) {
+    beam.tips[0].length = length;
+    return limbs_without_spikes(beam.limbs(), skeleton).size();
+  };
+  EXPECT_EQ(limbs(19), 0U);
+  EXPECT_EQ(limbs(20), 1U) << "longer than 1 + 1.2 * 15.5";
+  EXPECT_EQ(limbs(15), 1U) << "farther away than 15 + 19.6";
+  beam.tips.clear();
+  EXPECT_EQ(limbs_without_spikes(beam.limbs(), skeleton).size(), 0U);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,70 @@
+#include "core/ridge/spikes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/collapse/shortest_ways.h"
+#include "core/contour/edge_cells.h"
+#include "core/spatial/distance_to_mesh.h"
+
+namespace affskel::core {
+namespace {
+
+Mesh crossing_triangles(const Solid& solid, const Mesh& walls) {
+  std::vector<char> crosses(walls.triangles.size(), 0);
+  for (const auto& [a, b] : solid.crossings) crosses[a] = crosses[b] = 1;
+  Mesh mesh{.points = walls.points, .triangles = {}};
+  for (std::size_t t = 0; t < crosses.size(); ++t)
+    if (crosses[t]) mesh.triangles.push_back(walls.triangles[t]);
+  return mesh;
+}
+
+// The longest spike on a limb of that thickness, spacings.
+double longest_spike(float thickness, const RidgeConstants& constants) {
+  return constants.end_spacings + constants.end_radii * static_cast<double>(thickness);
+}
+
+double longest_spike(const SpikyLimbs& limbs, const RidgeConstants& constants) {
+  return longest_spike(*std::max_element(limbs.thickness.begin(), limbs.thickness.end()), constants);
+}
+
+}  // namespace
+
+std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
+                                  const SpikyLimbs& limbs, const RidgeConstants& constants) {
+  if (solid.crossings.empty()) return {};
+  const Mesh mesh = crossing_triangles(solid, walls);
+  const DistanceToMesh crossing(mesh);
+  const double longest = longest_spike(limbs, constants);
+  std::vector<char> possible;
+  possible.reserve(limbs.tips.size());
+  for (const LimbTip& tip : limbs.tips) {
+    const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
+    possible.push_back(tip.length <= longest &&
+                       crossing.nearest(place) <= radius_about(limbs.complex, limbs.radius, tip.vertex) + 1);
+  }
+  return possible;
+}
+
+std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton,
+                                          const RidgeConstants& constants) {
+  if (limbs.tips.empty()) return {};
+  std::vector<char> has_skeleton(limbs.complex.cubes(), 0);
+  skeleton.for_each([&](DualComplex::Cell cell) {
+    for (const auto& member : limbs.complex.star(cell)) has_skeleton[member.cube] = 1;
+  });
+  const double longest = longest_spike(limbs, constants);
+  std::vector<LimbTip> result;
+  for (const LimbTip& tip : limbs.tips) {
+    const auto stands_on = [&](std::uint32_t cube, float way) {
+      const double spike = longest_spike(limbs.thickness[cube], constants);
+      return has_skeleton[cube] != 0 && tip.length <= spike && static_cast<double>(way) <= tip.length + spike;
+    };
+    if (!is_near(limbs.complex, tip.vertex, static_cast<float>(tip.length + longest), stands_on))
+      result.push_back(tip);
+  }
+  return result;
+}
+
+}  // namespace affskel::core
