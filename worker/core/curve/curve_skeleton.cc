@@ -204,7 +204,8 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   const DistanceToMesh distance(surface);
   const std::vector<Vec3> places = positions(curve);
   std::vector<double> balls;
-  for (const Vec3& place : places) balls.push_back(distance.nearest(place));
+  for (const Vec3& place : places)
+    balls.push_back(sections.thickness(place, LimbSections::kSeen * distance.nearest(place)));
   const Adjacency beside = neighbours(places.size(), curve.segments);
   const double one = 1 / static_cast<double>(lattice.points);
   const auto for_each = [&](const auto& vertex_of) {  // what a point has, by what it had
@@ -247,8 +248,9 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
   std::vector<Vec3> places = positions(ridge);
   lines = sheet_lines(ridge, ends.is_end, options.context);
-  lines = pruned_lines(lines, places, thickness_along(surface, lines, places, balls), options.context);
-  lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
+  const std::vector<double> thickness = thickness_along(surface, lines, places, balls);
+  lines = pruned_lines(lines, places, thickness, options.context);
+  lines = with_joints(lines, ends.is_end, thickness, lattice.spacing, places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});

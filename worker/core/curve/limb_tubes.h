@@ -16,7 +16,7 @@ namespace affskel::core {
 
 /// Parts a solid where its limbs meet. Each limb is a tube about its line, whose sections are ellipses like the limb's
 /// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
-/// that it has where it leaves the joint (kJoint balls away, and no larger than it mostly is), and ends in half an
+/// that it has where it leaves the joint (kJoint of its sizes away, and no larger than it mostly is), and ends in half an
 /// ellipsoid. What lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own
 /// tube to that; else it belongs to the limb whose tube it lies deepest in, or is nearest to. So an arm begins where it
 /// leaves the trunk, from the armpit to the top of the shoulder, equal limbs share their joint evenly, and a joint
@@ -27,8 +27,8 @@ class LimbTubes {
   /// See LimbSections::ellipse().
   using EllipseAt = std::function<LimbEllipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach)>;
 
-  /// @param places, ball, radius per vertex: its distance to the surface, and see limb_radii(), of what is nearest to it.
-  ///   By those a limb is as thick as it is, however large the balls are where it lies in another.
+  /// @param places, ball, radius per vertex: how thick the solid is there, see LimbSections::thickness(), and see
+  ///   limb_radii(), of what is nearest to it. By those a limb is as thick as it is, however large the balls are where it lies in another.
   /// @param segments as for polylines().
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
             std::span<const double> radius, const EllipseAt& ellipse_at);
@@ -37,7 +37,7 @@ class LimbTubes {
   /// @param nearest the vertex of the lines that it is nearest to.
   std::uint32_t vertex_of(const Vec3& at, std::uint32_t nearest) const;
 
-  static constexpr double kJoint = 1.5;  ///< balls; see centre_lines()
+  static constexpr double kJoint = 1.22;  ///< joint_sizes(); see centre_lines()
   static constexpr double kRoundest = 1.1;
 
  private:
@@ -87,6 +87,7 @@ class LimbTubes {
 
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
+  std::vector<double> size_;  // per vertex: of a joint; see joint_sizes()
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube
