@@ -85,6 +85,14 @@ std::vector<float> costs_of_ways(const FrameField& field, std::span<const float>
 // Of a surface that noise makes cross itself: enough to hide noise as large as its triangles.
 constexpr int kSmoothings = 2;
 
+// The root of the mean squared distance of vertices.
+double distance_between(const Mesh& a, const Mesh& b) {
+  double sum = 0;
+  for (std::size_t v = 0; v < a.points.size(); ++v)
+    sum += dot(a.points[v] - b.points[v], a.points[v] - b.points[v]);
+  return std::sqrt(sum / static_cast<double>(a.points.size()));
+}
+
 // The components of the complex that are left out go, to the last cell.
 void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet& cells) {
   for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube)
@@ -173,7 +181,8 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
   std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
-  SpikyLimbs limbs{basis.complex, basis.radius, basis.thickness, basis.limbs};
+  SpikyLimbs limbs{basis.complex, basis.radius, basis.thickness, basis.limbs,
+                   smoothed ? distance_between(walls, without_noise) : 0};
   const std::vector<char> doubtful = possible_spikes(solid, walls, lattice, limbs, constants);
   const RidgeEvidence evidence{.complex = basis.complex,
                                .parts = parts,

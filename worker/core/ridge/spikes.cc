@@ -36,7 +36,7 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   if (solid.crossings.empty()) return {};
   const Mesh mesh = crossing_triangles(solid, walls);
   const DistanceToMesh crossing(mesh);
-  const double longest = longest_spike(limbs, constants);
+  const double longest = std::min(kSpike * limbs.noise, longest_spike(limbs, constants));
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
   for (const LimbTip& tip : limbs.tips) {

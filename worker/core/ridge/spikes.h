@@ -18,10 +18,12 @@ struct SpikyLimbs {
   std::span<const float> radius;     ///< per sample point: distance to the surface, spacings
   std::span<const float> thickness;  ///< per sample point, spacings: see section_radii()
   std::span<const LimbTip> tips;
+  double noise =
+      0;  ///< root of the mean squared distance that smoothing moves the surface's vertices by, spacings
 };
 
 /// Which limbs may be spikes: those about whose tips the surface crosses itself, no farther away than the surface and a
-/// spacing, and that are no longer than the solid is thick somewhere.
+/// spacing, and that are no longer than kSpike times the noise, nor than the solid is thick somewhere.
 /// @param walls the solid's surface in lattice coordinates.
 /// @return per limb; empty where the surface does not cross itself.
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
@@ -32,5 +34,7 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
 /// @param skeleton of the solid without these limbs.
 std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton,
                                           const RidgeConstants& constants = {});
+
+inline constexpr double kSpike = 5;
 
 }  // namespace affskel::core
