@@ -250,7 +250,7 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   lines = sheet_lines(ridge, ends.is_end, options.context);
   const std::vector<double> thickness = thickness_along(surface, lines, places, balls);
   lines = pruned_lines(lines, places, thickness, options.context);
-  lines = with_joints(lines, ends.is_end, thickness, lattice.spacing, places, options.context);
+  lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;
   for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
