@@ -35,6 +35,31 @@ struct Found {
   std::vector<RidgeCurve> curves;
 };
 
+constexpr int kSmoothings = 2;  // enough to hide noise as large as triangles
+
+Mesh smoothed(Mesh surface) {
+  smooth(surface, kSmoothings);
+  return surface;
+}
+
+// The root of the mean squared distance of vertices.
+double distance_between(const Mesh& a, const Mesh& b) {
+  double sum = 0;
+  for (std::size_t v = 0; v < a.points.size(); ++v)
+    sum += dot(a.points[v] - b.points[v], a.points[v] - b.points[v]);
+  return std::sqrt(sum / static_cast<double>(a.points.size()));
+}
+
+// A surface that noise makes cross itself, without the noise.
+struct WithoutNoise {
+  explicit WithoutNoise(const Mesh& walls)
+      : surface(smoothed(walls)), distance(surface), noise(distance_between(walls, surface)) {}
+
+  const Mesh surface;
+  const DistanceToMesh distance;
+  const double noise;
+};
+
 Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
                   const DistanceToMesh& nearest, const DistanceToMesh* smoothed,
                   const RidgeSheetOptions& options, const RidgeConstants& constants) {
@@ -82,17 +107,6 @@ std::vector<float> costs_of_ways(const FrameField& field, std::span<const float>
   return cost;
 }
 
-// Of a surface that noise makes cross itself: enough to hide noise as large as its triangles.
-constexpr int kSmoothings = 2;
-
-// The root of the mean squared distance of vertices.
-double distance_between(const Mesh& a, const Mesh& b) {
-  double sum = 0;
-  for (std::size_t v = 0; v < a.points.size(); ++v)
-    sum += dot(a.points[v] - b.points[v], a.points[v] - b.points[v]);
-  return std::sqrt(sum / static_cast<double>(a.points.size()));
-}
-
 // The components of the complex that are left out go, to the last cell.
 void drop(const DualComplex& complex, const std::vector<char>& left_out, CellSet& cells) {
   for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube)
@@ -123,6 +137,27 @@ std::vector<Vec3> mesh_places(const Solid& solid, const Lattice& lattice, const 
 std::optional<NoisySolid> noisy_solid(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis) {
   if (!solid.self_intersecting || solid.shells.size() > 1) return std::nullopt;
   return NoisySolid{lattice, basis.complex, basis.radius, basis.thickness, betti_numbers(solid).holes};
+}
+
+// Whether there are any.
+bool take_limbs(const std::vector<LimbTip>& limbs, RidgeAnchors& chosen) {
+  for (const LimbTip& tip : limbs) chosen.anchors.push_back({tip.vertex, 0});
+  chosen.limbs += static_cast<std::uint32_t>(limbs.size());
+  return !limbs.empty();
+}
+
+// What is left of the complex has tunnels and voids that the solid lacks: too coarse a lattice, or noise.
+void fill(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
+          std::span<const Anchor> anchors, const RidgeConstants& constants, ExecutionContext* context,
+          CellSet& left, RidgeSheet& sheet) {
+  if (basis.topology.holes + basis.topology.cavities == 0) return;
+  if (const auto bored = noisy_solid(solid, lattice, basis)) {
+    sheet.lattice = fill_bored(*bored, basis.topology, anchors, left, context);
+  } else {
+    sheet.filled = fill_tunnels(solid, lattice, basis.complex, anchors, basis.radius, left,
+                                {.limb_reach = constants.limb_reach, .context = context});
+    sheet.lattice.holes -= sheet.filled.number;
+  }
 }
 
 }  // namespace
@@ -165,15 +200,10 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const SolidParts parts(solid, lattice);
   const Mesh walls = surface_in_lattice(solid, lattice);
   const DistanceToMesh nearest(walls);
-  Mesh without_noise;
-  std::optional<DistanceToMesh> smoothed;
-  if (solid.self_intersecting) {
-    without_noise = walls;
-    smooth(without_noise, kSmoothings);
-    smoothed.emplace(without_noise);
-  }
+  std::optional<WithoutNoise> clean;
+  if (solid.self_intersecting) clean.emplace(walls);
   Found found =
-      find_ridges(lattice, field, basis, nearest, smoothed ? &*smoothed : nullptr, options, constants);
+      find_ridges(lattice, field, basis, nearest, clean ? &clean->distance : nullptr, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
   edges.reserve(found.crossings.size());
@@ -181,8 +211,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
   std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
-  SpikyLimbs limbs{basis.complex, basis.radius, basis.thickness, basis.limbs,
-                   smoothed ? distance_between(walls, without_noise) : 0};
+  SpikyLimbs limbs{basis.complex, basis.radius, basis.thickness, basis.limbs, clean ? clean->noise : 0};
   const std::vector<char> doubtful = possible_spikes(solid, walls, lattice, limbs, constants);
   const RidgeEvidence evidence{.complex = basis.complex,
                                .parts = parts,
@@ -195,28 +224,19 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .radius = basis.radius,
                                .doubtful = doubtful};
   RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
-  const CollapseOptions in_the_middle{.cost = costs_of_ways(field, basis.radius), .context = options.context};
-  Collapsed left = collapse(basis.complex, chosen.anchors, in_the_middle);
+  const auto collapsed_onto_them = [&] {
+    return collapse(basis.complex, chosen.anchors,
+                    {.cost = costs_of_ways(field, basis.radius), .context = options.context});
+  };
+  Collapsed left = collapsed_onto_them();
   limbs.tips = chosen.doubtful;
-  if (const auto real = limbs_without_spikes(limbs, left.cells, constants); !real.empty()) {
-    for (const LimbTip& tip : real) chosen.anchors.push_back({tip.vertex, 0});
-    chosen.limbs += static_cast<std::uint32_t>(real.size());
-    left = collapse(basis.complex, chosen.anchors, in_the_middle);
-  }
+  if (take_limbs(limbs_without_spikes(limbs, left.cells, constants), chosen)) left = collapsed_onto_them();
   if (count_components(basis.complex, left.cells) != basis.topology.components)
     throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
   drop(basis.complex, chosen.left_out, left.cells);
   RidgeSheet sheet;
   sheet.lattice = basis.topology;
-  if (basis.topology.holes + basis.topology.cavities > 0) {
-    if (const auto bored = noisy_solid(solid, lattice, basis)) {
-      sheet.lattice = fill_bored(*bored, basis.topology, chosen.anchors, left.cells, options.context);
-    } else {
-      sheet.filled = fill_tunnels(solid, lattice, basis.complex, chosen.anchors, basis.radius, left.cells,
-                                  {.limb_reach = constants.limb_reach, .context = options.context});
-      sheet.lattice.holes -= sheet.filled.number;
-    }
-  }
+  fill(solid, lattice, basis, chosen.anchors, constants, options.context, left.cells, sheet);
   sheet.fragments = chosen.fragments;
   sheet.limbs = chosen.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
   sheet.opened = left.opened;
