@@ -106,7 +106,7 @@ class LabServer(unittest.TestCase):
                                "affskel-client status @last | sed -n 's/^spacing: *//p'", "ada").splitlines()
         names, *rows, spacing = said
         self.assertTrue(names.startswith("x,y,z,"))
-        self.assertGreater(len(rows), 500)
+        self.assertGreater(len(rows), 300)  # a line once round has as many
         for row in rows:
             self.assertLessEqual(abs(float(row.split(",")[2])), float(spacing))
 

@@ -49,8 +49,9 @@ for job in (Job(DIRECTORY, "axis"), Job(DIRECTORY, "affine")):
     for bone in armature.data.bones:
         head = armature.matrix_world @ bone.head_local
         assert all(low[axis] <= head[axis] <= high[axis] for axis in range(3)), (bone.name, head)
-    # A bone of the second part, which is a leg, takes its triangles along and leaves the rest.
-    bone = armature.pose.bones["part 2.0"]
+    # The first bone of the part that ends lowest, which is a leg, takes its triangles along and leaves the rest.
+    lowest = min(armature.data.bones, key=lambda bone: (armature.matrix_world @ bone.head_local)[2])
+    bone = armature.pose.bones[lowest.name.split(".")[0] + ".0"]
     bone.rotation_mode = "XYZ"
     bone.rotation_euler = (0.5, 0, 0)
     moved = [place for place, now in zip(rest, places()) if (place - now).length > 1e-3 * (high[2] - low[2])]
