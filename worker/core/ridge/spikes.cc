@@ -42,7 +42,8 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   for (const LimbTip& tip : limbs.tips) {
     const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
     possible.push_back(tip.length <= longest &&
-                       crossing.nearest(place) <= radius_about(limbs.complex, limbs.radius, tip.vertex) + 1);
+                       crossing.nearest(place) <=
+                           radius_about(limbs.complex, limbs.radius, tip.vertex) + limbs.noise);
   }
   return possible;
 }

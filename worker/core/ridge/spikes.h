@@ -22,8 +22,8 @@ struct SpikyLimbs {
       0;  ///< root of the mean squared distance that smoothing moves the surface's vertices by, spacings
 };
 
-/// Which limbs may be spikes: those about whose tips the surface crosses itself, no farther away than the surface and a
-/// spacing, and that are no longer than kSpike times the noise, nor than the solid is thick somewhere.
+/// Which limbs may be spikes: those about whose tips the surface crosses itself, no farther away than the surface and the
+/// noise, and that are no longer than kSpike times the noise, nor than the solid is thick somewhere.
 /// @param walls the solid's surface in lattice coordinates.
 /// @return per limb; empty where the surface does not cross itself.
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
@@ -35,6 +35,6 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
 std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton,
                                           const RidgeConstants& constants = {});
 
-inline constexpr double kSpike = 5;
+inline constexpr double kSpike = 6;
 
 }  // namespace affskel::core
