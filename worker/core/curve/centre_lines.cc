@@ -8,7 +8,7 @@
 #include "core/base/matrix3.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
-#include "core/curve/joint_sizes.h"
+#include "core/curve/joint_balls.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
@@ -28,7 +28,7 @@ constexpr double kRoom =
 constexpr int kRounds = 5;        // sections are across lines that the last round has moved
 constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
 constexpr double kFitted = 5;     // vertices that tell of a parabola
-constexpr double kJoint = 1.22;   // joint_sizes(): nearer to a joint a section has a part of the other limbs
+constexpr double kJoint = 1.22;   // joint_balls(): nearer to a joint a section has a part of the other limbs
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
 constexpr double kRound = 0.75, kFlat = 0.55;
@@ -119,7 +119,7 @@ class CentreLines {
     thickness_.clear();
     for (const Vec3& at : home_) ball_.push_back(distance_.nearest(at));
     for (std::size_t v = 0; v < home_.size(); ++v) thickness_.push_back(thickness_at(home_[v], ball_[v]));
-    size_ = joint_sizes(places_, lines_, thickness_);
+    joints_ = joint_balls(places_, lines_, thickness_);
   }
 
   double thickness_at(const Vec3& at, double ball) const {
@@ -138,9 +138,9 @@ class CentreLines {
   std::size_t in_joint(const std::vector<std::uint32_t>& line, bool from_last) const {
     const auto at = [&](std::size_t n) { return line[from_last ? line.size() - 1 - n : n]; };
     if (!is_joint(at(0))) return 0;
-    const double near = kJoint * size_[at(0)];
+    const JointBalls& joint = joints_[at(0)];
     std::size_t count = 1;
-    while (count < line.size() && norm(places_[at(count)] - places_[at(0)]) < near) ++count;
+    while (count < line.size() && joint.hold(places_[at(count)], kJoint)) ++count;
     return count;
   }
 
@@ -301,8 +301,8 @@ class CentreLines {
       const double share = std::clamp((told.values[k] - kParallel) / (kOblique - kParallel), 0.0, 1.0);
       way = way + share * dot(met - start_[v], told.vectors[k]) * told.vectors[k];
     }
-    const double away = norm(way);
-    go(v, start_[v] + (away > size_[v] ? std::max(0.0, 2 * size_[v] - away) / away : 1) * way);
+    const double away = norm(way), size = joints_[v].size;
+    go(v, start_[v] + (away > size ? std::max(0.0, 2 * size - away) / away : 1) * way);
   }
 
   // From the joint to the first vertex that is free, and from joint to joint where none is.
@@ -360,10 +360,11 @@ class CentreLines {
   const SolidMembership membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Adjacency neighbours_;
-  std::vector<Vec3> start_;               // once smooth
-  std::vector<Vec3> home_;                // where the round has found the vertices
-  std::vector<double> thickness_, size_;  // per vertex: see LimbSections::thickness(), joint_sizes()
-  std::vector<double> ball_;              // per vertex: how far the surface is from there
+  std::vector<Vec3> start_;         // once smooth
+  std::vector<Vec3> home_;          // where the round has found the vertices
+  std::vector<double> thickness_;   // per vertex: see LimbSections::thickness()
+  std::vector<JointBalls> joints_;  // per vertex
+  std::vector<double> ball_;        // per vertex: how far the surface is from there
 };
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace affskel::core {
 namespace {
 
-// Joints are one up to so many of the larger one's balls from each other: at 1 the hips of animals and elephants were one
-// joint or two, as noise would have it; at 1.5 the two ends of a jar's handle are one.
+// Joints are one up to so many of the smaller one's balls from each other: of the larger one's the two ends of a jar's
+// handle were one, where its belly begins.
 constexpr double kTogether = 1.3;
 
 // Vertices, the first counted twice.
@@ -53,6 +53,14 @@ class Joints {
     return length;
   }
 
+  // Of all that have become a each with all that have become b: by one between them a trunk's two ends would be one.
+  bool are_together(std::uint32_t a, std::uint32_t b) const {
+    for (std::uint32_t v = 0; v < joint_.size(); ++v)
+      for (std::uint32_t w = 0; joint_[v] == a && w < joint_.size(); ++w)
+        if (joint_[w] == b && distance(v, w) >= kTogether * std::min(ball(a), ball(b))) return false;
+    return true;
+  }
+
   // The line itself, not only its ends: a handle leads from a trunk's ball back into it.
   bool lies_in_balls(std::span<const std::uint32_t> line, std::uint32_t a, std::uint32_t b) const {
     return std::all_of(line.begin(), line.end(),
@@ -76,9 +84,7 @@ class Joints {
   void join(std::uint32_t n) {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
     if (ball(b) > ball(a)) std::swap(a, b);
-    if (a == b || distance(a, b) >= kTogether * ball(a) || !lies_in_balls(polylines_[n], a, b) ||
-        would_meet(n, a, b))
-      return;
+    if (a == b || !are_together(a, b) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b)) return;
     gone_[n] = 1;
     std::replace(joint_.begin(), joint_.end(), b, a);
   }

@@ -7,7 +7,7 @@
 
 #include "core/base/basis.h"
 #include "core/base/unit.h"
-#include "core/curve/joint_sizes.h"
+#include "core/curve/joint_balls.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
@@ -52,7 +52,7 @@ LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segm
   }
   std::vector<std::vector<std::uint32_t>> lines;
   for (const Limb& limb : limbs_) lines.push_back(limb.vertices);
-  size_ = joint_sizes(places, lines, ball);
+  joints_ = joint_balls(places, lines, ball);
   for (std::uint32_t v = 0; v < places.size(); ++v) {
     if (at_joint_[v].size() < 3)
       at_joint_[v].clear();
@@ -105,8 +105,7 @@ std::size_t LimbTubes::in_joint(const Limb& limb, std::size_t end) const {
   const std::uint32_t joint = limb.end(end);
   if (!is_joint(joint)) return 0;
   std::size_t count = 1;
-  while (count + 1 < limb.vertices.size() &&
-         norm(places_[limb.at(end, count)] - places_[joint]) < kJoint * size_[joint])
+  while (count + 1 < limb.vertices.size() && joints_[joint].hold(places_[limb.at(end, count)], kJoint))
     ++count;
   return count;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/vec3.h"
+#include "core/curve/joint_balls.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/box.h"
 #include "core/mesh/mesh.h"
@@ -37,7 +38,7 @@ class LimbTubes {
   /// @param nearest the vertex of the lines that it is nearest to.
   std::uint32_t vertex_of(const Vec3& at, std::uint32_t nearest) const;
 
-  static constexpr double kJoint = 1.22;  ///< joint_sizes(); see centre_lines()
+  static constexpr double kJoint = 1.22;  ///< joint_balls(); see centre_lines()
   static constexpr double kRoundest = 1.1;
 
  private:
@@ -87,7 +88,7 @@ class LimbTubes {
 
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
-  std::vector<double> size_;  // per vertex: of a joint; see joint_sizes()
+  std::vector<JointBalls> joints_;  // per vertex
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube

@@ -141,11 +141,14 @@ class Zip {
     Beside found;
     double more = 0, length = 0;
     for (std::size_t k = 1, j = 0; k + 1 < p.size(); ++k) {
-      while (j + 2 < q.size() && distance(p[k], q[j + 1]) <= distance(p[k], q[j])) ++j;
+      // Lines come in steps of the lattice: the next vertex may be farther and those after it nearer.
+      for (std::size_t n = j + 1; n + 1 < q.size() && distance(q[n], q[j]) <= ball(q[j]); ++n)
+        if (distance(p[k], q[n]) <= distance(p[k], q[j])) j = n;
       if (distance(p[k], q[j]) > std::min(ball(p[k]), ball(q[j]))) break;
       length += distance(p[k - 1], p[k]);
       more += ball(q[j]) - ball(p[k]);
-      if (j == 0 || (at_[p[0]].size() > 2 && distance(p[k], p[0]) <= ball(p[0]))) continue;
+      const auto in_ball = [&](std::uint32_t v) { return distance(v, p[0]) <= ball(p[0]); };
+      if (j == 0 || (at_[p[0]].size() > 2 && (in_ball(p[k]) || in_ball(q[j])))) continue;
       found.leaves = k;
       found.at = j;
       found.length = length;

@@ -55,7 +55,7 @@ std::size_t count(const std::vector<std::uint32_t>& degrees, std::uint32_t which
 }
 
 TEST(JoinedLinks, JointsInEachOthersBallsBecomeOne) {
-  Fork fork(1.9);  // less than 1.3 times the larger ball
+  Fork fork(1.25);  // less than 1.3 times the smaller ball
   fork.ball[1] = 1.5;
   const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
   const auto degrees = fork.degrees(joined);
@@ -69,10 +69,26 @@ TEST(JoinedLinks, JointsInEachOthersBallsBecomeOne) {
 }
 
 TEST(JoinedLinks, JointsFartherApartStay) {
-  const Fork fork(1.35);
+  Fork fork(1.35);
+  fork.ball[1] = 1.5;  // where a jar's belly begins its ball would hold the handle's other end
   const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
   EXPECT_EQ(joined.vertices, fork.lines.vertices);
   EXPECT_EQ(joined.segments, fork.lines.segments);
+}
+
+// A neck leaves an elephant's trunk between hips and shoulders, near both.
+TEST(JoinedLinks, OneBetweenThemDoesNotJoinTwo) {
+  Fork fork(1.6);
+  fork.places[2].x = 0.75;
+  fork.ball[2] = 1.1;  // which would stand for the hips
+  const auto neck = static_cast<std::uint32_t>(fork.places.size());
+  fork.places.push_back({0.75, 1, 0});
+  fork.ball.push_back(1);
+  fork.lines.vertices.push_back(neck);
+  fork.lines.segments.push_back({2, neck});
+  const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
+  EXPECT_EQ(count(fork.degrees(joined), 4), 1U) << "neck and hips";
+  EXPECT_EQ(count(fork.degrees(joined), 3), 1U) << "shoulders";
 }
 
 // Two links between two joints: one goes, the other becomes a loop, or stays where it has no room for one.

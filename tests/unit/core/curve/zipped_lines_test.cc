@@ -71,6 +71,30 @@ TEST(ZippedLines, LegsLeaveTheSpineWhereTheyPartFromIt) {
   }
 }
 
+// Lines in steps of the lattice: the first vertex of the spine lies back from the joint.
+TEST(ZippedLines, AStepBackHidesNoneOfTheWay) {
+  Strands strands = body(0.5);
+  for (const auto& [a, b] : strands.segments)
+    if (a == 0 && strands.places[b].x > 0 && strands.ball[b] == 1) strands.places[b] = {-0.02, 0, 0.1};
+  const SheetLines lines = strands.zipped();
+  for (const auto& [degree, at] : nodes(strands, lines)) {
+    if (degree == 1) continue;
+    EXPECT_NEAR(at.x, 4, 0.5);
+  }
+}
+
+// Lines that leave a joint the opposite way are near each other as far as their balls reach, which may be larger than
+// the joint's.
+TEST(ZippedLines, OppositeOnesAreNotBesideEachOther) {
+  Strands strands;
+  const std::uint32_t joint = strands.add({0, 0, 0}, 1);
+  for (const Vec3& way : {Vec3{0.1, 0, 0}, Vec3{-0.1, 0, 0}})
+    strands.tips.push_back(strands.go(joint, way, 40, 1.5));
+  strands.places[41].x = 0.05;  // a step back
+  strands.tips.push_back(strands.go(joint, {0, 0, 0.1}, 40, 0.5));
+  EXPECT_EQ(strands.zipped().segments, strands.lines().segments);
+}
+
 TEST(ZippedLines, WhatPartsWithinTheJointStays) {
   Strands strands = body(8);
   const SheetLines lines = strands.zipped();
