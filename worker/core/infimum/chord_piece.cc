@@ -28,9 +28,8 @@ namespace affskel::core {
 namespace {
 
 constexpr std::uint32_t kNone = PieceInput::kNone;
-constexpr double kThird = 1.0 / 3;
 constexpr std::size_t kMostSides = 64;  // bits of a word
-constexpr double kSteepest = 1e9;       // of cot(inclination): level triangles have no finite one
+constexpr double kBeside = 1e-9;        // more than places are off by rounding
 
 using PlanePoint = SectionLoops::PlanePoint;
 using Cut = SectionLoops::Cut;
@@ -60,7 +59,9 @@ class PieceFinder::Work {
     d_ = d;
     section_.cut(x, d);
     own_loops_.clear();
-    const std::uint32_t own = section_.loop_right_of({}, [](std::uint32_t) { return true; });
+    if (in_.is_ball && join_alone()) return piece();
+    trace_rest();
+    const std::uint32_t own = own_loop();
     if (own == kNone) return {};
     join(own);
     return piece();
@@ -69,12 +70,14 @@ class PieceFinder::Work {
   bool holds(std::uint32_t vertex) {
     if (own_loops_.empty()) return false;
     if (!by_sides_) return classes_.find(member_of(vertex)) == classes_.find(own_loops_[0]);
-    const std::uint64_t sides = sides_of(vertex);
+    const std::uint64_t sides = sides_of(vertex) & (~std::uint64_t{0} >> (kMostSides - sides_.size()));
     return std::ranges::any_of(own_loops_, [&](std::uint32_t l) { return sides_[l] == sides; });
   }
 
   // Some loops that pass the vertex bound the piece, others do not.
-  Joins joins_at(std::uint32_t vertex) const {
+  Joins joins_at(std::uint32_t vertex) {
+    trace_rest();
+    joined_.resize(loops_.size(), 0);
     if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return Joins::unknown;
     std::uint32_t beside = vertex;  // in the plane, too
     for (const std::uint32_t other : in_.rings[vertex]) {
@@ -94,7 +97,7 @@ class PieceFinder::Work {
 
   Hessian hessian() const {
     Hessian sum{};
-    for (const std::uint32_t l : own_loops_) add_bend(loops_[l], sum);
+    for (const std::uint32_t l : own_loops_) section_.add_bend(loops_[l], sum);
     return sum;
   }
 
@@ -107,6 +110,50 @@ class PieceFinder::Work {
     return static_cast<std::uint32_t>(loops_.size() + section_.edges().size()) + shell;
   }
   std::uint32_t shell_of(const Loop& loop) const { return in_.shell_of[loop.low]; }
+
+  void trace_rest() {
+    section_.trace_if([](const SectionLoops::Start&) { return true; });
+  }
+
+  std::uint32_t own_loop() const {
+    return section_.loop_right_of({}, [](std::uint32_t) { return true; });
+  }
+
+  // Whether the loop nearest to x bounds the piece by itself, on a surface like a sphere, as nine in ten do.  Most
+  // others need not be known for that: but those that may lie within it in the plane, and those that start from the
+  // side of the surface that it cuts off.
+  bool join_alone() {
+    section_.trace_nearest();
+    if (own_loop() != 0) return false;
+    const auto edges = section_.edges();
+    own_first_.resize(edges.size());
+    own_count_.resize(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      own_first_[i] = in_.branches[edges[i].number].first;
+      own_count_[i] = in_.branches[edges[i].number].count;
+    }
+    const Loop own = loops_[0];
+    const bool own_side = is_odd(own.low);
+    section_.trace_if([&](const SectionLoops::Start& start) {
+      if (is_odd(in_.begin_of(start.half_edge)) == own_side) return true;
+      const PlanePoint at = section_.place(start);
+      return at.a >= own.least.a - kBeside && at.a <= own.most.a + kBeside && at.b >= own.least.b - kBeside &&
+             at.b <= own.most.b + kBeside;
+    });
+    if (!(own.area > 0) || loops_.size() > kMostSides) return false;
+    if (loops_.size() > 1 && own_loop() != 0) return false;
+    join(0);
+    return std::ranges::count(joined_, 1) == 1;
+  }
+
+  // Whether the way from a vertex to the root in the tree passes the loop an odd number of times.
+  bool is_odd(std::uint32_t vertex) const {
+    const std::uint32_t first = in_.branches[vertex].first, *firsts = own_first_.data(),
+                        *counts = own_count_.data();
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < own_first_.size(); ++i) count += first - firsts[i] < counts[i];
+    return count % 2 != 0;
+  }
 
   void join(std::uint32_t own) {
     solid_ = in_.shells[shell_of(loops_[own])].solid;
@@ -140,7 +187,7 @@ class PieceFinder::Work {
   }
 
   bool passes_at(const Loop& loop, std::uint32_t vertex) const {
-    const auto cuts = std::span(section_.cuts()).subspan(loop.begin, loop.end - loop.begin);
+    const auto cuts = section_.cuts().subspan(loop.begin, loop.end - loop.begin);
     return std::ranges::any_of(cuts, [&](const Cut& cut) {
       const Triangle& corners = in_.mesh.triangles[cut.triangle()];
       return corners[0] == vertex || corners[1] == vertex || corners[2] == vertex;
@@ -185,7 +232,7 @@ class PieceFinder::Work {
     cuts_.clear();
     for (const SectionLoops::Edge& edge : section_.edges()) {
       if (!is_handle(edge))
-        cuts_.push_back({in_.branches[edge.number], edge.number, edge.loop, edge.begin_below, kNone});
+        cuts_.push_back({in_.branches[edge.number], edge.number, edge.loop, edge.low == edge.number, kNone});
     }
     std::sort(cuts_.begin(), cuts_.end(),
               [](const CutEdge& i, const CutEdge& j) { return i.branch.first < j.branch.first; });
@@ -216,8 +263,9 @@ class PieceFinder::Work {
     if (loops_.size() < 2) return;
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       if (!of_solid(loops_[l])) continue;
-      const std::uint32_t next = section_.loop_right_of(
-          loops_[l].rightmost, [&](std::uint32_t other) { return other != l && of_solid(loops_[other]); });
+      const std::uint32_t next =
+          section_.loop_right_of(section_.rightmost(loops_[l]),
+                                 [&](std::uint32_t other) { return other != l && of_solid(loops_[other]); });
       if (next != kNone) classes_.unite(l, next);
     }
   }
@@ -225,8 +273,7 @@ class PieceFinder::Work {
   void join_handles() {
     for (const SectionLoops::Edge& edge : section_.edges()) {
       if (!is_handle(edge)) continue;
-      const PieceInput::Edge& of_mesh = in_.edges[edge.number];
-      classes_.unite(edge.loop, member_of(edge.begin_below ? of_mesh.begin : of_mesh.end));
+      classes_.unite(edge.loop, member_of(edge.low));
     }
     for (const std::uint32_t s : solid_shells_[solid_]) {
       for (const Segment& edge : in_.shells[s].handles) {
@@ -270,75 +317,39 @@ class PieceFinder::Work {
   }
 
   ChordPiece piece() {
-    Sums sums;
+    ChordPiece piece;
+    piece.found = true;
+    SurfaceSums whole;  // of the triangles with two corners below, or three
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       if (joined_[l] == 0) continue;
+      const Loop& loop = loops_[l];
       own_loops_.push_back(l);
-      add_up(loops_[l], sums);
+      piece.volume += loop.volume;
+      piece.area += loop.area;
+      for (std::size_t k = 0; k < 2; ++k) piece.gradient[k] -= loop.moment[k];
+      for (const std::uint32_t h :
+           section_.alone_first().subspan(loop.alone_begin, loop.alone_end - loop.alone_begin)) {
+        const SurfaceSums& sums = in_.faces[h / 3].sums;
+        if (h % 3 == 0) {
+          whole -= sums;
+        } else {
+          whole += sums;
+        }
+      }
     }
     for (const SectionLoops::Edge& edge : section_.edges()) {
       if (joined_[edge.loop] == 0 || is_handle(edge)) continue;
-      if (edge.begin_below) {
-        sums.whole += in_.below[edge.number];
+      if (edge.low == edge.number) {
+        whole += in_.below[edge.number];
       } else {
-        sums.whole -= in_.below[edge.number];
+        whole -= in_.below[edge.number];
       }
     }
-    for (const std::uint32_t root : whole_) sums.whole += in_.below[root];
-    ChordPiece piece;
-    piece.found = true;
-    piece.volume = sums.cut + sums.whole.volume_from(x_);
-    piece.area = sums.area;
+    for (const std::uint32_t root : whole_) whole += in_.below[root];
+    piece.volume += whole.volume_from(x_);
     piece.u = section_.u();
     piece.w = section_.w();
-    piece.gradient = {-sums.moment[0], -sums.moment[1]};
     return piece;
-  }
-
-  struct Sums {
-    double cut = 0;  // volume below the cut triangles, with the origin x
-    double area = 0;
-    std::array<double, 2> moment{};
-    SurfaceSums whole;  // of the triangles that are not cut
-  };
-
-  void add_up(const Loop& loop, Sums& sums) const {
-    sums.area += loop.area;
-    for (std::size_t k = 0; k < 2; ++k) sums.moment[k] += loop.moment[k];
-    for (std::uint32_t i = loop.begin; i < loop.end; ++i) add_triangle(section_.cuts()[i], sums);
-  }
-
-  void add_triangle(const Cut& cut, Sums& sums) const {
-    const PieceInput::Face& face = in_.faces[cut.triangle()];
-    const double corner = cut.alone * cut.alone / ((cut.alone + cut.others[0]) * (cut.alone + cut.others[1]));
-    const double share = cut.corner_below ? corner : 1 - corner;
-    sums.cut += kThird * share * dot(face.area, in_.mesh.points[cut.corner] - x_);
-    if (cut.first_below()) sums.whole -= face.sums;
-  }
-
-  void add_bend(const Loop& loop, Hessian& sum) const {
-    PlanePoint from = section_.cuts()[loop.end - 1].leaves;
-    for (std::uint32_t i = loop.begin; i < loop.end; ++i) {
-      const Cut& cut = section_.cuts()[i];
-      const PlanePoint& to = cut.leaves;
-      const double weight = kThird * spread(cut.triangle(), {to.a - from.a, to.b - from.b});
-      sum[0] += weight * (from.a * from.a + from.a * to.a + to.a * to.a);
-      sum[1] += weight * (from.a * from.b + 0.5 * (from.a * to.b + to.a * from.b) + to.a * to.b);
-      sum[2] += weight * (from.b * from.b + from.b * to.b + to.b * to.b);
-      from = to;
-    }
-  }
-
-  // How far a stretch of the rim moves outwards in the plane when that rises by one, times its length.
-  double spread(std::uint32_t triangle, const PlanePoint& stretch) const {
-    const Vec3& n = in_.faces[triangle].area;
-    const double up = -dot(n, d_), a = dot(n, section_.u()), b = dot(n, section_.w());
-    const double across = a * a + b * b;
-    if (across * (kSteepest * kSteepest) > up * up) {
-      // The stretch is a multiple of (-b, a).
-      return up * (a * stretch.b - b * stretch.a) / across;
-    }
-    return (up > 0 ? kSteepest : -kSteepest) * std::sqrt(stretch.a * stretch.a + stretch.b * stretch.b);
   }
 
   const PieceInput& in_;
@@ -349,7 +360,8 @@ class PieceFinder::Work {
   std::uint32_t solid_ = 0;
   std::vector<CutEdge> cuts_;
   DisjointSets classes_;
-  bool by_sides_ = false;                 // how the loops were joined
+  bool by_sides_ = false;                             // how the loops were joined
+  std::vector<std::uint32_t> own_first_, own_count_;  // branches of the edges that join_alone()'s loop passes
   std::vector<std::uint64_t> sides_;      // per loop: bits of the loops with the root on their other side
   std::vector<std::uint8_t> joined_;      // per loop: whether it bounds the piece
   std::vector<std::uint32_t> whole_;      // roots that lie in it
@@ -372,7 +384,7 @@ bool PieceFinder::holds(std::uint32_t vertex) {
   return work_->holds(vertex);
 }
 
-PieceFinder::Joins PieceFinder::joins_at(std::uint32_t vertex) const {
+PieceFinder::Joins PieceFinder::joins_at(std::uint32_t vertex) {
   return work_->joins_at(vertex);
 }
 

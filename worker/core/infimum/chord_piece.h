@@ -51,7 +51,7 @@ class PieceFinder {
   /// Whether another part joins the piece found last at a vertex that its plane touches, as soon as it passes it.
   /// Unknown where parts may meet elsewhere, too: at a neighbour in the plane, or where triangles pass through
   /// each other.
-  Joins joins_at(std::uint32_t vertex) const;
+  Joins joins_at(std::uint32_t vertex);
 
  private:
   class Work;

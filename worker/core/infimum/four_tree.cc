@@ -78,7 +78,11 @@ class FourTree::Builder {
         for (const Range& quarter : halves(half)) {
           if (quarter.count == 0) continue;
           Box box;
-          for (std::uint32_t i = 0; i < quarter.count; ++i) box.include(boxes_[order_[quarter.first + i]]);
+          for (std::uint32_t i = 0; i < quarter.count; ++i) {
+            const Box& item = boxes_[order_[quarter.first + i]];
+            box.include(item.lowest());
+            box.include(item.highest());
+          }
           put(node, size, box);
           node.child[size++] = build(level + 1, quarter);
         }

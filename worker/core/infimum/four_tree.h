@@ -35,6 +35,11 @@ class PlaneHeights {
   Four middle(const FourBoxes& boxes) const {
     return boxes.centre[0] * d_[0] + boxes.centre[1] * d_[1] + boxes.centre[2] * d_[2] - offset_;
   }
+  /// How far the segment between its lowest and highest corner reaches from its middle at most.
+  Four reach_of_segment(const FourBoxes& boxes) const {
+    const Four reach = boxes.half[0] * d_[0] + boxes.half[1] * d_[1] + boxes.half[2] * d_[2];
+    return (reach < 0 ? -reach : reach) + kSlack;
+  }
   /// How far the box reaches from its middle at most.
   Four reach(const FourBoxes& boxes) const {
     return boxes.half[0] * size_[0] + boxes.half[1] * size_[1] + boxes.half[2] * size_[2] + kSlack;
@@ -84,32 +89,25 @@ class FourTree {
   /// Memory of select(), used again.
   using Lists = std::array<std::vector<std::uint32_t>, 2>;
 
+  /// @param boxes of segments, too: with their ends as low and high, whichever is lower.
   /// @return the items in the tree's order: neighbours near each other.
   std::vector<std::uint32_t> build(const std::vector<Box>& boxes);
 
   /// The items, in the tree's order, whose box meets(boxes) tells of with -1, not 0, of four that it is asked
   /// for at once.  Level by level, without branches on what is met: no processor foresees them.
+  /// @param meets_item is asked in its place of the items' own boxes.
   /// @return in one of the lists.
-  template <class Meets>
-  std::span<const std::uint32_t> select(Meets meets, Lists& lists) const {
+  template <class Meets, class MeetsItem>
+  std::span<const std::uint32_t> select(Meets meets, MeetsItem meets_item, Lists& lists) const {
     lists[0].assign(1, 0);
     std::size_t count = 1;
-    for (const std::vector<Node>& level : levels_) {
-      auto& [from, to] = lists;
-      if (to.size() < 4 * count) to.resize(4 * count);
-      std::size_t met_count = 0;
-      for (std::size_t n = 0; n < count; ++n) {
-        const Node& node = level[from[n]];
-        const auto met = meets(node.boxes);
-        for (std::uint32_t i = 0; i < 4; ++i) {
-          to[met_count] = node.child[i];
-          met_count += static_cast<std::size_t>(met[i] & 1);
-        }
-      }
-      count = met_count;
-      from.swap(to);
-    }
+    for (std::size_t l = 0; l + 1 < levels_.size(); ++l) count = descend(levels_[l], count, meets, lists);
+    count = descend(levels_.back(), count, meets_item, lists);
     return {lists[0].data(), count};
+  }
+  template <class Meets>
+  std::span<const std::uint32_t> select(Meets meets, Lists& lists) const {
+    return select(meets, meets, lists);
   }
 
  private:
@@ -117,6 +115,24 @@ class FourTree {
     FourBoxes boxes;
     std::array<std::uint32_t, 4> child{};  // of the next level, or items; where there are fewer, none is met
   };
+
+  // From the nodes listed to those of their children that are met; how many.
+  template <class Meets>
+  static std::size_t descend(const std::vector<Node>& level, std::size_t count, Meets meets, Lists& lists) {
+    auto& [from, to] = lists;
+    if (to.size() < 4 * count) to.resize(4 * count);
+    std::size_t met_count = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      const Node& node = level[from[n]];
+      const auto met = meets(node.boxes);
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        to[met_count] = node.child[i];
+        met_count += static_cast<std::size_t>(met[i] & 1);
+      }
+    }
+    from.swap(to);
+    return met_count;
+  }
 
   class Builder;
   std::vector<std::vector<Node>> levels_;  // from the root

@@ -100,7 +100,7 @@ class ChordDescent::Work {
     d_ = from;
     piece_ = {find(d_), {}};
     if (!valid(piece_) || piece_.volume > bound.first) return {};
-    piece_.hessian = finder_.hessian();
+    bent_ = false;
     for (int n = 0; n < kMaxSteps; ++n) {
       const TiltStep step = next_step();
       if (piece_.volume - bound.promise * step.gain > bound.erosion) return {};
@@ -233,6 +233,7 @@ class ChordDescent::Work {
         active_.erase(active_.begin() + (first * norm(a) < second * norm(b) ? 0 : 1));
       }
     }
+    if (!bent_) move_to(d_, standing(piece_));
     if (active_.empty()) return free_step(piece_);
     const Flat z = flat(active_[0]);
     if (dot(piece_.gradient, z) < 0) {
@@ -255,6 +256,7 @@ class ChordDescent::Work {
   void move_to(const Vec3& d, const Stand& piece) {
     d_ = d;
     piece_ = piece;
+    bent_ = true;
   }
 
   bool falls(const ChordPiece& piece) const {
@@ -266,7 +268,8 @@ class ChordDescent::Work {
     const Vec3 end = touching(tilted(step, 1));
     const ChordPiece there = find(end);
     if (falls(there)) {
-      move_to(end, standing(there));
+      move_to(end, {there, {}});
+      bent_ = false;
       return true;
     }
     meetings_ = saddles_.sinking(x_, d_, tilted(step, 1), active_);
@@ -369,6 +372,7 @@ class ChordDescent::Work {
   Vec3 x_, d_, found_x_, found_d_;                  // the last two: of the piece found last
   std::vector<std::uint32_t> active_;               // saddles, at most two
   Stand piece_;                                     // of d_
+  bool bent_ = false;                               // whether that knows its second derivatives
   std::span<const SaddleSearch::Saddle> meetings_;  // of the step in hand
   std::uint64_t evaluations_ = 0;
 };

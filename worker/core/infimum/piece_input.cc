@@ -200,8 +200,8 @@ void PieceInput::find_passages() {
   std::vector<Box> boxes(edges.size());
   for (std::uint32_t n = 0; n < edges.size(); ++n) {
     const Edge& edge = edges[n];
-    boxes[n].include(mesh.points[edge.begin]);
-    boxes[n].include(mesh.points[edge.end]);
+    const Vec3 &begin = mesh.points[edge.begin], &end = mesh.points[edge.end];
+    boxes[n] = {{begin.x, begin.y, begin.z}, {end.x, end.y, end.z}};
     if (edge.there != kNone) passages[edge.there].edge = passages[edge.back].edge = n;
   }
   edge_tree.build(boxes);

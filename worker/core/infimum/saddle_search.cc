@@ -114,11 +114,9 @@ bool SaddleSearch::may_join(const Vec3& x, const PieceInput::Saddle& saddle, con
 }
 
 bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) const {
-  const std::uint32_t vertex = saddle.vertex;
-  if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return true;
-  const double along = dot(d, saddle.normal);
-  if (along * along < saddle.cosine * saddle.cosine * dot(d, d)) return false;
-  const auto ring = in_.rings[vertex];
+  if (!in_.crosses.empty() && in_.crosses[saddle.vertex] != 0) return true;
+  if (!near_tangent(saddle, d)) return false;
+  const auto ring = in_.rings[saddle.vertex];
   int changes = 0;
   bool before = dot(d, from_x(ring.back())) < 0;
   for (const std::uint32_t other : ring) {

@@ -40,6 +40,13 @@ class SaddleSearch {
   /// Those that a plane of a normal at most asin(sine) from d touches, where parts may meet at such a plane.
   std::span<const PieceInput::Saddle* const> in_reach(const Vec3& x, const Vec3& d, double sine);
 
+  /// Whether the saddle is one for planes of normal d, of any length; no ring is looked at.
+  bool near_tangent(const PieceInput::Saddle& saddle, const Vec3& d) const {
+    if (!in_.crosses.empty() && in_.crosses[saddle.vertex] != 0) return true;
+    const double along = dot(d, saddle.normal);
+    return along * along >= saddle.cosine * saddle.cosine * dot(d, d);
+  }
+
   /// Whether parts of the solid may meet at the saddle when the plane through x of normal d, which touches it,
   /// tilts.
   bool may_join(const Vec3& x, const PieceInput::Saddle& saddle, const Vec3& d);

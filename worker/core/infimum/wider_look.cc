@@ -122,11 +122,16 @@ class Look {
     if (std::ranges::none_of(known_saddles(), &Saddle::anew)) return;
     const double sine = reach(in_.mesh.triangles.size());
     const double cosine_squared = 1 - sine * sine;
+    std::array<const Saddle*, kMostSaddles> near;
+    std::size_t near_count = 0;
+    for (const Saddle& a : known_saddles()) {
+      if (std::abs(dot(a.way, known_.normal)) <= sine) near[near_count++] = &a;
+    }
     for (const PieceInput::Saddle* other : descent_.saddles().in_reach(x_, known_.normal, sine)) {
       const Saddle b = saddle(*other, false);
       const Vec3 turned = cross(b.way, known_.normal);
-      for (std::size_t m = 0; m < count_; ++m) {
-        const Saddle& a = saddles_[m];
+      for (std::size_t m = 0; m < near_count; ++m) {
+        const Saddle& a = *near[m];
         if (a.of == other) break;  // a pair that is tried
         if (!a.anew || !leaves_out(a, b)) continue;
         const double along = dot(a.way, turned), shared = dot(a.way, b.way);
@@ -141,6 +146,7 @@ class Look {
   static bool leaves_out(const Saddle& a, const Saddle& b) { return a.below || b.below; }
 
   void try_pair(const Saddle& a, const Saddle& b, const Vec3& across, double first) {
+    if (!near_tangent(a, across) || !near_tangent(b, across)) return;
     if (near_.holds_more(across, best_.erosion)) return;
     const double size = norm(across);
     if (!(size > 0)) return;
@@ -151,6 +157,9 @@ class Look {
     if (joins(a, start.normal) && joins(b, start.normal)) go_down(start, first, kPairPromise);
   }
 
+  bool near_tangent(const Saddle& saddle, const Vec3& d) const {
+    return descent_.saddles().near_tangent(*saddle.of, d);
+  }
   bool joins(const Saddle& saddle, const Vec3& d) { return descent_.saddles().may_join(x_, *saddle.of, d); }
 
   void try_planes() {

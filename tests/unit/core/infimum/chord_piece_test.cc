@@ -153,7 +153,10 @@ TEST(ChordPieceTest, PartsJoinWhereTheVolumeJumps) {
       const Vec3 s = input.mesh.points[saddle.vertex] - x, d = draw_direction(random);
       const Vec3 touching = unit(d - (dot(d, s) / dot(s, s)) * s);
       const double volume = finder.find(x, touching).volume;
+      const auto other = static_cast<std::uint32_t>(draw_share(random) * double(input.mesh.points.size()));
+      const bool held = finder.holds(other);
       const PieceFinder::Joins at = finder.joins_at(saddle.vertex);
+      EXPECT_EQ(finder.holds(other), held);
       if (at == PieceFinder::Joins::unknown) continue;
       const double beyond = finder.find(x, unit(touching - (1e-9 / dot(s, s)) * s)).volume;
       EXPECT_EQ(at == PieceFinder::Joins::yes, beyond > volume * (1 + 1e-6));

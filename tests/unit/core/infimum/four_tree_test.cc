@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "core/base/split_mix64.h"
@@ -57,6 +58,45 @@ TEST(FourTreeTest, SelectsWhatAPlaneMeets) {
         met += there;
       }
       EXPECT_EQ(met, selected.size());
+    }
+  }
+}
+
+// Whichever end is lower.
+TEST(FourTreeTest, SelectsSegmentsThatAPlanePasses) {
+  SplitMix64 random(3);
+  std::vector<Box> segments;
+  for (int n = 0; n < 500; ++n) {
+    const Vec3 begin = 0.4 * draw_vector(random), end = begin + 0.05 * draw_vector(random);
+    segments.push_back({{begin.x, begin.y, begin.z}, {end.x, end.y, end.z}});
+  }
+  FourTree tree;
+  tree.build(segments);
+  FourTree::Lists lists;
+  for (int n = 0; n < 100; ++n) {
+    const Vec3 x = 0.2 * draw_vector(random), d = draw_direction(random);
+    const PlaneHeights plane(x, d);
+    const auto selected = tree.select(
+        [&](const FourBoxes& four) {
+          const Four middle = plane.middle(four), reach = plane.reach(four);
+          return (middle <= reach) & (middle >= -reach);
+        },
+        [&](const FourBoxes& four) {
+          const Four middle = plane.middle(four), reach = plane.reach_of_segment(four);
+          return (middle <= reach) & (middle >= -reach);
+        },
+        lists);
+    const std::set<std::uint32_t> there(selected.begin(), selected.end());
+    EXPECT_EQ(there.size(), selected.size());
+    for (std::uint32_t i = 0; i < segments.size(); ++i) {
+      const double begin = dot(d, segments[i].lowest() - x), end = dot(d, segments[i].highest() - x);
+      const double gap = std::max({0.0, std::min(begin, end), -std::max(begin, end)});
+      if (gap == 0) {
+        EXPECT_TRUE(there.contains(i)) << i;
+      }
+      if (gap > 2 * double(PlaneHeights::kSlack)) {
+        EXPECT_FALSE(there.contains(i)) << i;
+      }
     }
   }
 }
