@@ -21,7 +21,7 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 20;        // each evens a rim out over one more neighbour
+constexpr int kRimPasses = 12;        // each evens a rim out over one more neighbour
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
@@ -44,7 +44,7 @@ class Placing {
     throw_if_stopped(context);
     draw_rims();
     even_out(fixed_on_rim(), kRimPasses, context,
-             [&](std::uint32_t v) { return kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_)); });
+             [&](std::uint32_t v) { return 0.5 * way_to_mean(v, rim_neighbours_); });
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
     even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
@@ -97,9 +97,7 @@ class Placing {
     }
     for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
       if (!of_surface[v]) continue;
-      const std::uint32_t point = mesh_.vertices[v].point;
       mesh_.vertices[v] = *on_surface(v);
-      mesh_.vertices[v].point = point;
       bound_[v] = 1;
     }
   }
