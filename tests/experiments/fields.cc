@@ -38,6 +38,7 @@ void Fields::go_on() {
   const std::vector<core::LeastChord> least =
       core::refine(input, job_.lattice, job_.directions, erosion_->field(), {.threads = threads_}, context);
   job_.directions.clear();
+  job_.over_set = false;
   for (std::uint32_t p = 0; p < least.size(); ++p) {
     job_.directions.push_back(least[p].normal);
     put(p, {least[p].erosion, least[p].slope, p});

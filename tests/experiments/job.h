@@ -28,6 +28,7 @@ struct Job {
   core::Solid solid;
   core::Lattice lattice;
   core::DirectionSet directions;
+  bool over_set = true;                  ///< whether the values are the least of these directions, or of all
   std::vector<core::FieldValue> values;  ///< per sample point
   double seconds = 0;                    ///< from the mesh to the field, wall time
 

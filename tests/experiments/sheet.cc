@@ -38,7 +38,8 @@ Cloud cloud_of(const Points& points, const InFrame& in_frame) {
 
 Sheet chord_sheet_of(const Job& job) {
   const InFrame in_frame(job);
-  const core::ChordSheet found = core::chord_sheet(job.solid, job.lattice, in_frame.field);
+  const core::ChordSheet found =
+      core::chord_sheet(job.solid, job.lattice, in_frame.field, {.over_set = job.over_set});
   Sheet sheet;
   sheet.points = cloud_of(found.shocks, in_frame);
   for (const core::SheetVertex& vertex : found.vertices)

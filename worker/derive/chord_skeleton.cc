@@ -13,6 +13,7 @@ namespace {
 core::ChordSheetOptions chord_options_for(const FinishedField& field, double threshold) {
   core::ChordSheetOptions options;
   options.context = field.context();
+  options.over_set = field.over_set();
   if (threshold != 0) options.significance = threshold;
   return options;
 }

@@ -17,7 +17,7 @@ struct ChordConstants {
   /// shock's own edge, at most 64 edges to either side of it.
   double width = 0.7;
   /// Least jump |g_x - g_y| of a peak, as a share of the largest jump at most as many cells away as the band
-  /// reaches, 0 .. 1.
+  /// reaches, 0 .. 1; 0: none is asked.
   double min_share = 0.4;
   double min_concentration =
       0.2;  ///< least kink s of a peak, as a share of the change of slope over its band
@@ -25,14 +25,23 @@ struct ChordConstants {
   std::uint32_t rounds = 1;         ///< of averaging along the sheet
 
   // Pruning.
-  double strong_turn = 0.49;  ///< least turn of a strong shock; 1/2 is a right angle between its normals
+  double strong_turn = 0.45;  ///< least turn of a strong shock; 1/2 is a right angle between its normals
   double min_erosion =
-      0.001;              ///< its least E, as a share of the volume of the sample points' cells in its part
+      0.002;              ///< its least E, as a share of the volume of the sample points' cells in its part
   double near_cost = 40;  ///< pieces that a path through weaker shocks joins at this cost are weighed as one
   /// Where no turn is as wide as strong_turn, a strong one has this share of the largest turn instead, but at
   /// least min_strong_turn.
   double strong_share = 0.8;
   double min_strong_turn = 0.1;
 };
+
+/// Of a field over all directions.  Its normals have no facets beside the sheet that a small jump would belong to; a
+/// peak must be sharper instead, which keeps smooth ridges from being taken for shocks.
+constexpr ChordConstants constants_of_infimum() {
+  ChordConstants constants;
+  constants.min_share = 0;
+  constants.min_concentration = 0.3;
+  return constants;
+}
 
 }  // namespace affskel::core

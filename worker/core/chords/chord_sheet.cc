@@ -96,9 +96,9 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const SolidParts parts(solid, lattice);
   std::vector<ChordShock> candidates = chord_shocks(lattice, field);
   throw_if_stopped(options.context);
-  measure_turns(lattice, parts, field, candidates, options.context);
+  ChordConstants constants = options.over_set ? ChordConstants() : constants_of_infimum();
+  measure_turns(lattice, parts, field, candidates, options.context, constants);
   throw_if_stopped(options.context);
-  ChordConstants constants;
   constants.strong_turn = strong_turn(candidates, constants);
   SignificantShocks kept = significant_shocks(lattice, parts, candidates, options.significance, constants);
   ChordSheet sheet;

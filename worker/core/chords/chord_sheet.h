@@ -14,7 +14,8 @@
 namespace affskel::core {
 
 struct ChordSheetOptions {
-  double significance = 0.005;          ///< the threshold of `chords`, see significant_shocks()
+  double significance = 0.005;  ///< the threshold of `chords`, see significant_shocks()
+  bool over_set = true;         ///< whether the field is the least of a finite set, or over all directions
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers
 };
 

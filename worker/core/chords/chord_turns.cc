@@ -61,7 +61,7 @@ class TurnGauge {
       shock.turn = shock.opening;
       reach_.push_back(reach_of(shock));
     }
-    find_largest_jumps();
+    if (constants_.min_share > 0) find_largest_jumps();
     for (std::uint8_t axis = 0; axis < 3; ++axis) walk(axis);
   }
 
@@ -126,7 +126,9 @@ class TurnGauge {
 
   double jump(std::uint32_t s) const { return length_of(shocks_[s].gradient_low - shocks_[s].gradient_high); }
 
-  bool is_among_largest(std::uint32_t s) const { return jump(s) >= constants_.min_share * largest_[s]; }
+  bool is_among_largest(std::uint32_t s) const {
+    return largest_.empty() || jump(s) >= constants_.min_share * largest_[s];
+  }
 
   // Measures along all stretches of an axis: a line of sample points, and the shock on each edge of it.
   void walk(std::uint8_t axis) {
@@ -204,7 +206,7 @@ class TurnGauge {
   const ChordConstants& constants_;
   std::vector<bool> is_peak_;                  // per shock
   std::vector<double> reach_;                  // per shock: q
-  std::vector<double> largest_;                // per shock, see find_largest_jumps
+  std::vector<double> largest_;                // per shock, see find_largest_jumps; or empty
   std::vector<std::uint32_t> line_, on_line_;  // of one stretch
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/erosion/directions.h"
 #include "core/erosion/erosion.h"
+#include "core/infimum/refine.h"
 #include "core/shapes/shapes.h"
 
 namespace affskel::core {
@@ -31,19 +32,26 @@ LatticeGrid frame_round(const Solid& solid, const std::array<Vec3, 3>& axes) {
   return grid;
 }
 
-FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string& spec) {
-  const DirectionSet directions = make_directions(solid, spec);
+FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string& spec, bool refined) {
+  DirectionSet directions = make_directions(solid, spec);
   Erosion erosion(solid, lattice, directions, {});
   std::vector<std::uint32_t> list(directions.size());
   std::iota(list.begin(), list.end(), 0U);
   ExecutionContext context;
   erosion.run(list, context);
   std::vector<FieldValue> values;
-  for (std::uint32_t p = 0; p < lattice.points; ++p) {
-    FieldValue value = erosion.field().value(p);
+  for (std::uint32_t p = 0; p < lattice.points; ++p) values.push_back(erosion.field().value(p));
+  if (refined) {
+    const auto least = refine(PieceInput(solid), lattice, directions, erosion.field(), {}, context);
+    directions.assign(least.size(), {});
+    for (std::uint32_t p = 0; p < lattice.points; ++p) {
+      directions[p] = least[p].normal;
+      values[p] = {least[p].erosion, least[p].slope, p};
+    }
+  }
+  for (FieldValue& value : values) {
     value.area *= solid.scale() * solid.scale();
     value.erosion *= solid.scale() * solid.scale() * solid.scale();
-    values.push_back(value);
   }
   return frame_field(lattice, directions, values);
 }
@@ -80,10 +88,11 @@ FrameField field_of_branches(const Lattice& lattice, const std::vector<Branch>& 
   return field;
 }
 
-ErodedSolid::ErodedSolid(const Mesh& mesh, const std::array<Vec3, 3>& axes, const std::string& directions)
+ErodedSolid::ErodedSolid(const Mesh& mesh, const std::array<Vec3, 3>& axes, const std::string& directions,
+                         bool refined)
     : solid(make_solid(mesh)),
       lattice(make_lattice(solid, frame_round(solid, axes))),
-      field(eroded(solid, lattice, directions)) {}
+      field(eroded(solid, lattice, directions, refined)) {}
 
 Vec3 ErodedSolid::place(const Vec3& u) const {
   const SamplePlaces places(solid, lattice);

@@ -42,7 +42,9 @@ struct ErodedSolid {
   FrameField field;
 
   /// @param axes of the lattice, mesh units; its points fill the solid's bounding box, centred.
-  ErodedSolid(const Mesh& mesh, const std::array<Vec3, 3>& axes, const std::string& directions);
+  /// @param refined whether the field goes on from the directions to all.
+  ErodedSolid(const Mesh& mesh, const std::array<Vec3, 3>& axes, const std::string& directions,
+              bool refined = false);
 
   /// Mesh place of frame coordinates.
   Vec3 place(const Vec3& u) const;
