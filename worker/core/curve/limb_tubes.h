@@ -9,6 +9,7 @@
 
 #include "core/base/vec3.h"
 #include "core/curve/joint_balls.h"
+#include "core/curve/limb_forks.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/box.h"
 #include "core/mesh/mesh.h"
@@ -32,7 +33,8 @@ class LimbTubes {
   ///   limb_radii(), of what is nearest to it. By those a limb is as thick as it is, however large the balls are where it lies in another.
   /// @param segments as for polylines().
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
-            std::span<const double> radius, const EllipseAt& ellipse_at);
+            std::span<const double> radius, std::span<const std::vector<LimbFork>> forks,
+            const EllipseAt& ellipse_at);
 
   /// The vertex that a place belongs to.
   /// @param nearest the vertex of the lines that it is nearest to.
@@ -66,6 +68,7 @@ class LimbTubes {
     }
   };
 
+  static double across(const Ring& ring, const Vec3& way);
   bool is_joint(std::uint32_t vertex) const { return !at_joint_[vertex].empty(); }
   void add_rings(const EllipseAt& ellipse_at, Limb& limb) const;
   std::size_t in_joint(const Limb& limb, std::size_t end) const;
@@ -75,6 +78,7 @@ class LimbTubes {
   };
   Free free_part(const Limb& limb) const;
   Ring leaving(const Limb& limb, const Free& free, std::size_t end) const;
+  double beyond_joint(const Limb& limb, std::size_t end, const Ring& leaving) const;
   void go_on_into_joints(Limb& limb);
   void compare(Limb& limb, std::size_t end) const;
   void find_hidden();
@@ -88,6 +92,7 @@ class LimbTubes {
 
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
+  std::span<const std::vector<LimbFork>> forks_;  // per vertex
   std::vector<JointBalls> joints_;  // per vertex
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there

@@ -16,6 +16,7 @@ struct Tubed : DrawnLines {
   // A limb is round; along one axis it may be so many times as wide.
   std::function<Vec3(const Vec3& place)> wide = [](const Vec3&) { return Vec3{1, 1, 1}; };
 
+  std::vector<LimbFork> forks;    // of the joint, which is the first vertex
   std::size_t little = SIZE_MAX;  // from that vertex on little is nearest
 
   std::uint32_t nearest(const Vec3& at) const {
@@ -37,7 +38,9 @@ struct Tubed : DrawnLines {
     std::vector<double> radius;
     for (std::size_t v = 0; v < ball.size(); ++v)
       radius.push_back((v < little ? 1 : 0.1) * ball[v] * std::sqrt(wide(places[v]).x));
-    return places[LimbTubes(places, segments, ball, radius, ellipse).vertex_of(at, from)];
+    std::vector<std::vector<LimbFork>> parts(places.size());
+    for (const LimbFork& fork : forks) parts[0].push_back(fork);
+    return places[LimbTubes(places, segments, ball, radius, parts, ellipse).vertex_of(at, from)];
   }
 };
 
