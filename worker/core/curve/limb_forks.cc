@@ -34,12 +34,18 @@ class Walk {
 
 }  // namespace
 
+double ahead(const Vec3& way, const Vec3& direction) {
+  const double along = dot(way, direction);
+  return std::max(0.0, along * along / dot(way, way) - 0.25);
+}
+
 std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
                                               std::span<const std::vector<std::uint32_t>> lines,
                                               const LimbSections& sections, double step) {
   std::vector<std::vector<LimbFork::End>> ends(places.size());
   for (std::uint32_t n = 0; n < lines.size(); ++n)
-    for (const bool back : {false, true}) ends[back ? lines[n].back() : lines[n].front()].push_back({n, back});
+    for (const bool back : {false, true})
+      ends[back ? lines[n].back() : lines[n].front()].push_back({n, back});
   std::vector<std::vector<LimbFork>> forks(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
     if (ends[v].size() < 3) continue;
@@ -47,7 +53,8 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
     for (const LimbFork::End& end : ends[v]) walks.push_back({places, lines[end.line], end.back});
     for (std::size_t a = 0; a < walks.size(); ++a)
       for (std::size_t b = a + 1; b < walks.size(); ++b) {
-        const double most = std::min(walks[a].length(), walks[b].length());
+        const bool is_loop = ends[v][a].line == ends[v][b].line;
+        const double most = (is_loop ? 0.5 : 1) * std::min(walks[a].length(), walks[b].length());
         const auto parted = [&](double way) { return sections.parted(walks[a].at(way), walks[b].at(way)); };
         double sees = 0, way = step;
         while (way < most && !parted(way)) {
@@ -59,7 +66,7 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
           const double middle = 0.5 * (sees + way);
           (parted(middle) ? way : sees) = middle;
         }
-        forks[v].push_back({ends[v][a], ends[v][b], *parted(way), way});
+        forks[v].push_back({{ends[v][a], ends[v][b]}, *parted(way)});
       }
   }
   return forks;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,10 +20,13 @@ struct LimbFork {
 
     bool operator==(const End&) const = default;
   };
-  End a, b;
-  Vec3 place;      ///< between them, where the surface is first
-  double way = 0;  ///< from the joint, along either
+  std::array<End, 2> limbs;
+  Vec3 place;  ///< between them, where the surface is first
 };
+
+/// How much what lies that way is ahead along a direction or against it, a unit vector: the squared cosine above a quarter,
+/// 0 where it is more than 60 degrees aside.
+double ahead(const Vec3& way, const Vec3& direction);
 
 /// @param lines see polylines(), by numbers in places.
 /// @param step along lines, > 0.

@@ -16,8 +16,6 @@ namespace {
 // Of limbs that are about as thick neither is a part of the other; a section that is larger than most is open.
 constexpr double kClearly = 1.1;
 
-constexpr double kBeside = 0.25;  // squared cosine: where limbs part that far aside, the one that ends there does not end.
-
 constexpr std::size_t kRings = 4;  // vertices on either side whose outlines tell that of a joint
 
 double median(std::vector<double> values) {
@@ -170,9 +168,9 @@ double LimbTubes::beyond_joint(const Limb& limb, std::size_t end, const Ring& le
   double sum = 0, count = 0;
   for (const LimbFork& fork : forks_[limb.end(end)]) {
     const Vec3 way = fork.place - places_[limb.end(end)];
-    const double along = dot(way, out), rest = 1 - across(leaving, way);
-    const double weight = along * along / dot(way, way) - kBeside;
-    if (fork.a == self || fork.b == self || along <= 0 || rest <= 0 || !(weight > 0)) continue;
+    const double along = dot(way, out), rest = 1 - across(leaving, way), weight = ahead(way, out);
+    const bool is_own = fork.limbs[0] == self || fork.limbs[1] == self;
+    if (is_own || along <= 0 || rest <= 0 || !(weight > 0)) continue;
     sum += weight * along / std::sqrt(rest);
     count += weight;
   }

@@ -19,11 +19,11 @@ namespace affskel::core {
 /// Parts a solid where its limbs meet. Each limb is a tube about its line, whose sections are ellipses like the limb's
 /// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
 /// that it has where it leaves the joint (kJoint of its sizes away, and no larger than it mostly is), and ends in half an
-/// ellipsoid. What lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own
-/// tube to that; else it belongs to the limb whose tube it lies deepest in, or is nearest to. So an arm begins where it
-/// leaves the trunk, from the armpit to the top of the shoulder, equal limbs share their joint evenly, and a joint
-/// itself has nothing. A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing
-/// either. Keeps references to its arguments.
+/// ellipsoid, no farther than where the limbs beyond part from each other. What lies there in the tube of a limb that is
+/// thicker, all in all, belongs to that; what lies in its own tube to that; else it belongs to the limb whose tube it lies
+/// deepest in, or is nearest to. So an arm begins where it leaves the trunk, from the armpit to the top of the shoulder,
+/// equal limbs share their joint evenly, and a joint itself has nothing. A link or loop whose line lies in the tubes of the
+/// others that it meets, whole, has nothing either. Keeps references to its arguments.
 class LimbTubes {
  public:
   /// See LimbSections::ellipse().
@@ -32,6 +32,7 @@ class LimbTubes {
   /// @param places, ball, radius per vertex: how thick the solid is there, see LimbSections::thickness(), and see
   ///   limb_radii(), of what is nearest to it. By those a limb is as thick as it is, however large the balls are where it lies in another.
   /// @param segments as for polylines().
+  /// @param forks per vertex, see limb_forks(), of the same polylines.
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
             std::span<const double> radius, std::span<const std::vector<LimbFork>> forks,
             const EllipseAt& ellipse_at);
@@ -93,7 +94,7 @@ class LimbTubes {
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
   std::span<const std::vector<LimbFork>> forks_;  // per vertex
-  std::vector<JointBalls> joints_;  // per vertex
+  std::vector<JointBalls> joints_;                // per vertex
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube

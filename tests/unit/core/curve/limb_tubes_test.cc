@@ -105,6 +105,37 @@ TEST(LimbTubes, ATrunkEndsInARoundEndWhereItsLimbsBegin) {
   }
 }
 
+// However thick the trunk: a neck between shoulders begins where they part from it.
+TEST(LimbTubes, ATrunkEndsWhereTheLimbsBeyondPart) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 0.5);
+  lines.go(joint, {0, 0, -0.1}, 80, 1);
+  lines.go(joint, {0, 0, 0.1}, 80, 0.5);
+  lines.go(joint, {0.1, 0, 0}, 80, 0.5);
+  EXPECT_LT(lines.owner({0, 0, 0.95}).z, 0.01) << "no fork is known";
+  const auto fork = [&](double height) -> LimbFork { return {{{{1, false}, {2, false}}}, {0.5, 0, height}}; };
+  for (const double height : {0.3, 0.6}) {
+    lines.forks = {fork(height)};
+    const double end = height / std::sqrt(1 - 0.25);
+    EXPECT_LT(lines.owner({0, 0, end - 0.03}).z, 0.01) << height;
+    EXPECT_GT(lines.owner({0, 0, end + 0.03}).z, 0.01) << height;
+  }
+}
+
+// Nor is it narrower there where the joint's ball is.
+TEST(LimbTubes, ATrunkIsAsWideInAJointAsBelow) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 0.5);
+  lines.go(joint, {0, 0, -0.1}, 80, 1);
+  lines.go(joint, {0, 0, 0.1}, 80, 0.4);
+  lines.go(joint, {0.1, 0, 0}, 80, 0.4);
+  for (std::size_t v = 1; v < 5; ++v) lines.ball[v] = 0.6;
+  for (const double z : {-0.05, -0.3}) {
+    EXPECT_LT(lines.owner({0.95, 0, z}).x, 0.5) << z;
+    EXPECT_GT(lines.owner({1.05, 0, z}).x, 0.5) << z;
+  }
+}
+
 // The link is the thickest of all, and has no vertex that is no joint.
 TEST(LimbTubes, ALinkOfTwoJointsHasNothing) {
   Tubed lines;
