@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,6 +10,7 @@
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
+#include "core/curve/limb_forks.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
@@ -25,10 +27,12 @@ constexpr double kStep = 0.5, kStepBack = -0.51;
 
 constexpr double kRoom =
     0.8;  // of its ball, what a vertex has in a round: from beside the surface none comes back
-constexpr int kRounds = 5;        // sections are across lines that the last round has moved
-constexpr double kDirection = 1;  // radii: over so long a stretch on both sides a line has its direction
-constexpr double kFitted = 5;     // vertices that tell of a parabola
-constexpr double kJoint = 1.22;   // joint_balls(): nearer to a joint a section has a part of the other limbs
+constexpr int kRounds = 5;         // sections are across lines that the last round has moved
+constexpr int kRest = 5;           // rounds more, at most, until joints have settled
+constexpr double kSettled = 0.05;  // spacings: of all joints, less than that in a round is no move
+constexpr double kDirection = 1;   // radii: over so long a stretch on both sides a line has its direction
+constexpr double kFitted = 5;      // vertices that tell of a parabola
+constexpr double kJoint = 1.22;    // joint_balls(): nearer to a joint a section has a part of the other limbs
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
 constexpr double kRound = 0.75, kFlat = 0.55;
@@ -40,7 +44,9 @@ constexpr double kHold = 0.02;
 
 // The mean of the squared sines between a direction and the lines of a joint: along one with less than the first, lines
 // that are about parallel do not tell where they meet, and with more than the other they do.
-constexpr double kParallel = 0.12, kOblique = 0.22;
+constexpr double kParallel = 0.08, kOblique = 0.15;
+
+constexpr double kFarForks = 2;  // sizes of a joint: how limbs part farther from there says nothing of it
 
 // Least squares.
 class ParabolaFit {
@@ -77,12 +83,13 @@ class CentreLines {
     find_balls();
     make_smooth(kPasses, false);
     start_ = places_;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kRounds + kRest; ++round) {
       throw_if_stopped(input_.context);
       find_balls();
       to_middle();
-      meet();
+      const double moved = meet();
       make_smooth(kLaterPasses, true);
+      if (round + 1 >= kRounds && moved < kSettled * input_.spacing) break;
     }
     for (const auto& line : lines_) find_ends(line);
   }
@@ -235,9 +242,11 @@ class CentreLines {
   };
 
   // Joints, and what lies in their balls.
-  void meet() {
+  // @return how far they move, at most.
+  double meet() {
     std::vector<Free> free;
     for (const auto& line : lines_) free.push_back(free_part(line));
+    forks_ = limb_forks(places_, lines_, sections_, input_.spacing);
     std::vector<Meeting> meetings(places_.size());
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       if (free[l].first >= free[l].last) continue;
@@ -246,9 +255,15 @@ class CentreLines {
         if (is_joint(joint)) add_line(lines_[l], free[l], from_last, meetings[joint]);
       }
     }
-    for (std::uint32_t v = 0; v < places_.size(); ++v)
-      if (is_joint(v)) move_joint(v, meetings[v]);
+    double moved = 0;
+    for (std::uint32_t v = 0; v < places_.size(); ++v) {
+      if (!is_joint(v)) continue;
+      const Vec3 before = places_[v];
+      move_joint(v, meetings[v]);
+      moved = std::max(moved, norm(places_[v] - before));
+    }
     for (std::size_t l = 0; l < lines_.size(); ++l) draw_straight(lines_[l], free[l]);
+    return moved;
   }
 
   // The direction of a line `gap` beyond its vertex n, away from `last`: it bends on as it does over two stretches on this
@@ -288,7 +303,7 @@ class CentreLines {
     }
   }
 
-  // As far as its lines tell where they meet, and that is near.
+  // As far as its lines tell where they meet, and that is near; else by where they part.
   void move_joint(std::uint32_t v, const Meeting& meeting) {
     const double trace = meeting.sum[0].x + meeting.sum[1].y + meeting.sum[2].z;
     if (!(trace > 0)) return;
@@ -299,10 +314,33 @@ class CentreLines {
     Vec3 way;
     for (std::size_t k = 0; k < 3; ++k) {
       const double share = std::clamp((told.values[k] - kParallel) / (kOblique - kParallel), 0.0, 1.0);
-      way = way + share * dot(met - start_[v], told.vectors[k]) * told.vectors[k];
+      const Vec3& along = told.vectors[k];
+      const double rest = share < 1 ? by_forks(v, along) : 0;
+      way = way + (share * dot(met - start_[v], along) + (1 - share) * rest) * along;
     }
     const double away = norm(way), size = joints_[v].size;
     go(v, start_[v] + (away > size ? std::max(0.0, 2 * size - away) / away : 1) * way);
+  }
+
+  // Of a limb where it leaves its joint.
+  double thickness_of(const LimbFork::End& limb) const {
+    const auto& line = lines_[limb.line];
+    const std::size_t n = std::min(in_joint(line, limb.back), line.size() - 1);
+    return thickness_[line[limb.back ? line.size() - 1 - n : n]];
+  }
+
+  // How far along a direction a joint lies from where it began, that limbs part as far from it as they are thick.
+  double by_forks(std::uint32_t v, const Vec3& along) const {
+    double sum = 0, count = 0;
+    for (const LimbFork& fork : forks_[v]) {
+      const Vec3 way = fork.place - places_[v];
+      const double weight = ahead(way, along) * std::max(0.0, kFarForks * joints_[v].size - norm(way));
+      if (!(weight > 0)) continue;
+      const double thick = 0.5 * (thickness_of(fork.limbs[0]) + thickness_of(fork.limbs[1]));
+      sum += weight * (dot(fork.place - start_[v], along) - std::copysign(thick, dot(way, along)));
+      count += weight;
+    }
+    return count > 0 ? sum / count : 0;
   }
 
   // From the joint to the first vertex that is free, and from joint to joint where none is.
@@ -360,11 +398,12 @@ class CentreLines {
   const SolidMembership membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Adjacency neighbours_;
-  std::vector<Vec3> start_;         // once smooth
-  std::vector<Vec3> home_;          // where the round has found the vertices
-  std::vector<double> thickness_;   // per vertex: see LimbSections::thickness()
-  std::vector<JointBalls> joints_;  // per vertex
-  std::vector<double> ball_;        // per vertex: how far the surface is from there
+  std::vector<Vec3> start_;                   // once smooth
+  std::vector<Vec3> home_;                    // where the round has found the vertices
+  std::vector<double> thickness_;             // per vertex: see LimbSections::thickness()
+  std::vector<JointBalls> joints_;            // per vertex
+  std::vector<std::vector<LimbFork>> forks_;  // per vertex
+  std::vector<double> ball_;                  // per vertex: how far the surface is from there
 };
 
 }  // namespace

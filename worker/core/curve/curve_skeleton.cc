@@ -14,6 +14,7 @@
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"
 #include "core/curve/joined_links.h"
+#include "core/curve/limb_forks.h"
 #include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
@@ -223,7 +224,8 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
       for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, beside, at, nearest); });
   const std::vector<double> radius =
       limb_radii({places, curve.segments, curve.slice, curve.slice, balls, solid.volume});
-  const LimbTubes tubes(places, curve.segments, balls, radius,
+  const auto forks = limb_forks(places, polylines(places.size(), curve.segments), sections, lattice.spacing);
+  const LimbTubes tubes(places, curve.segments, balls, radius, forks,
                         [&](const Vec3& place, const Vec3& u, const Vec3& v, double reach) {
                           return sections.ellipse(place, u, v, reach);
                         });

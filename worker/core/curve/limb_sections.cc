@@ -32,6 +32,26 @@ struct CutBoxes {
   static constexpr double kSlack = 1 + 1e-9;  // for rounding
 };
 
+// The boxes that a line from one place to another goes through.
+struct BoxesBetween {
+  const Vec3 &a, &b;
+
+  bool meets(const Box& box) const {
+    double first = 0, last = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double start = a[static_cast<int>(k)], way = b[static_cast<int>(k)] - start;
+      if (way == 0 && (start < box.low[k] || start > box.high[k])) return false;
+      if (way == 0) continue;
+      const double to_low = (box.low[k] - start) / way, to_high = (box.high[k] - start) / way;
+      first = std::max(first, std::min(to_low, to_high) - kSlack);
+      last = std::min(last, std::max(to_low, to_high) + kSlack);
+    }
+    return first <= last;
+  }
+
+  static constexpr double kSlack = 1e-9;  // for rounding
+};
+
 }  // namespace
 
 LimbSections::LimbSections(const Mesh& surface) : surface_(surface), tree_(boxes_of(surface)) {
@@ -126,6 +146,27 @@ double LimbSections::thickness(const Vec3& place, double reach) const {
   const auto at = all.begin() + static_cast<std::ptrdiff_t>(kShort * static_cast<double>(all.size()));
   std::nth_element(all.begin(), at, all.end());
   return *at;
+}
+
+std::optional<Vec3> LimbSections::parted(const Vec3& a, const Vec3& b) const {
+  const Vec3 way = b - a;
+  double first = 1, last = 0;
+  tree_.visit(BoxesBetween{a, b}, [&](std::uint32_t t) {
+    const Vec3 &p = surface_.points[surface_.triangles[t][0]], &q = surface_.points[surface_.triangles[t][1]],
+               &r = surface_.points[surface_.triangles[t][2]];
+    const Vec3 out = cross(q - p, r - p);
+    const double steep = dot(out, way), part = dot(out, p - a) / steep;
+    if (steep == 0 || !(part >= 0 && part <= 1)) return;
+    const Vec3 at = a + part * way;
+    const auto is_left = [&](const Vec3& from, const Vec3& to) {
+      return dot(cross(to - from, at - from), out) >= 0;
+    };
+    if (!is_left(p, q) || !is_left(q, r) || !is_left(r, p)) return;
+    first = std::min(first, part);
+    last = std::max(last, part);
+  });
+  if (last < first) return std::nullopt;
+  return a + 0.5 * (first + last) * way;
 }
 
 double LimbEllipse::radius() const {

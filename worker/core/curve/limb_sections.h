@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "core/base/vec3.h"
 #include "core/mesh/mesh.h"
@@ -51,6 +52,9 @@ class LimbSections {
   /// tube its radius, in a plate half its thickness; spikes and dents of noise, which the distance to the surface follows,
   /// change it little.
   double thickness(const Vec3& place, double reach) const;
+
+  /// Where the surface is between two places: the middle of all that; none where they see each other.
+  std::optional<Vec3> parted(const Vec3& a, const Vec3& b) const;
 
  private:
   static constexpr std::size_t kRays = 32;

@@ -31,12 +31,20 @@ double distance_to(const Box& box, const Vec3& at) {
 
 }  // namespace
 
+// Of a way from the middle of a ring; 1 on its ellipse.
+double LimbTubes::across(const Ring& ring, const Vec3& way) {
+  const double u = dot(way, ring.u), v = dot(way, ring.v);
+  const auto& [mean, cosine, sine] = ring.ellipse;
+  return mean * (u * u + v * v) + cosine * (u * u - v * v) + sine * 2 * u * v;
+}
+
 LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments,
                      std::span<const double> ball, std::span<const double> radius,
-                     const EllipseAt& ellipse_at)
+                     std::span<const std::vector<LimbFork>> forks, const EllipseAt& ellipse_at)
     : places_(places),
       ball_(ball),
       radius_(radius),
+      forks_(forks),
       limb_of_(places.size(), kNone),
       rank_(places.size(), 0),
       is_shared_(places.size(), 0),
@@ -152,19 +160,35 @@ LimbTubes::Ring LimbTubes::leaving(const Limb& limb, const Free& free, std::size
   return ring;
 }
 
+// How far a limb goes on beyond its joint: as half of a tube's end, to where the limbs there part from each other.
+double LimbTubes::beyond_joint(const Limb& limb, std::size_t end, const Ring& leaving) const {
+  const LimbFork::End self{static_cast<std::uint32_t>(&limb - limbs_.data()), end == 1};
+  const Ring& ring = limb.rings[limb.index(end, 0)];
+  const Vec3 out = (end == 0 ? -1. : 1.) * cross(ring.u, ring.v);
+  double sum = 0, count = 0;
+  for (const LimbFork& fork : forks_[limb.end(end)]) {
+    const Vec3 way = fork.place - places_[limb.end(end)];
+    const double along = dot(way, out), rest = 1 - across(leaving, way), weight = ahead(way, out);
+    const bool is_own = fork.limbs[0] == self || fork.limbs[1] == self;
+    if (is_own || along <= 0 || rest <= 0 || !(weight > 0)) continue;
+    sum += weight * along / std::sqrt(rest);
+    count += weight;
+  }
+  return count > 0 ? std::min(leaving.thickness, sum / count) : leaving.thickness;
+}
+
 void LimbTubes::go_on_into_joints(Limb& limb) {
   const Free free = free_part(limb);
   const std::array<Ring, 2> leaving{this->leaving(limb, free, 0), this->leaving(limb, free, 1)};
   for (std::size_t end = 0; end < 2; ++end) {
-    const double ball = ball_[limb.at(end, free.from[end])];
     for (std::size_t n = 0; n < free.from[end]; ++n) {
       Ring& ring = limb.rings[limb.index(end, n)];
-      const double own = kRoundest * ball_[limb.at(end, n)], share = ball > own ? ball / own : 1;
-      const LimbEllipse& there = leaving[end].ellipse;
-      ring.ellipse = {share * share * there.mean, share * share * there.cosine, share * share * there.sine};
-      ring.thickness = std::min(leaving[end].thickness, own);
+      ring.ellipse = leaving[end].ellipse;
+      ring.thickness = leaving[end].thickness;
       is_shared_[limb.at(end, n)] = 1;
     }
+    if (is_joint(limb.end(end)))
+      limb.rings[limb.index(end, 0)].thickness = beyond_joint(limb, end, leaving[end]);
   }
   std::vector<double> radii;
   for (std::size_t n = 0; n < limb.vertices.size(); ++n) {
@@ -225,10 +249,8 @@ double LimbTubes::depth_below(const Limb& limb, std::size_t n, const Vec3& at) c
   const Vec3 way = at - places_[limb.vertices[n]];
   const double square = dot(way, way), u = dot(way, ring.u), v = dot(way, ring.v);
   if (!(square > 0)) return -ring.thickness;
-  const auto& [mean, cosine, sine] = ring.ellipse;
   const double along = std::max(0.0, square - u * u - v * v) / (ring.thickness * ring.thickness);
-  const double across = mean * (u * u + v * v) + cosine * (u * u - v * v) + sine * 2 * u * v;
-  return std::sqrt(square) * (1 - 1 / std::sqrt(across + along));
+  return std::sqrt(square) * (1 - 1 / std::sqrt(across(ring, way) + along));
 }
 
 std::size_t LimbTubes::nearest_in(const Limb& limb, const Vec3& at) const {

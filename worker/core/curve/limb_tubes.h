@@ -9,6 +9,7 @@
 
 #include "core/base/vec3.h"
 #include "core/curve/joint_balls.h"
+#include "core/curve/limb_forks.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/box.h"
 #include "core/mesh/mesh.h"
@@ -18,11 +19,11 @@ namespace affskel::core {
 /// Parts a solid where its limbs meet. Each limb is a tube about its line, whose sections are ellipses like the limb's
 /// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
 /// that it has where it leaves the joint (kJoint of its sizes away, and no larger than it mostly is), and ends in half an
-/// ellipsoid. What lies there in the tube of a limb that is thicker, all in all, belongs to that; what lies in its own
-/// tube to that; else it belongs to the limb whose tube it lies deepest in, or is nearest to. So an arm begins where it
-/// leaves the trunk, from the armpit to the top of the shoulder, equal limbs share their joint evenly, and a joint
-/// itself has nothing. A link or loop whose line lies in the tubes of the others that it meets, whole, has nothing
-/// either. Keeps references to its arguments.
+/// ellipsoid, no farther than where the limbs beyond part from each other. What lies there in the tube of a limb that is
+/// thicker, all in all, belongs to that; what lies in its own tube to that; else it belongs to the limb whose tube it lies
+/// deepest in, or is nearest to. So an arm begins where it leaves the trunk, from the armpit to the top of the shoulder,
+/// equal limbs share their joint evenly, and a joint itself has nothing. A link or loop whose line lies in the tubes of the
+/// others that it meets, whole, has nothing either. Keeps references to its arguments.
 class LimbTubes {
  public:
   /// See LimbSections::ellipse().
@@ -31,8 +32,10 @@ class LimbTubes {
   /// @param places, ball, radius per vertex: how thick the solid is there, see LimbSections::thickness(), and see
   ///   limb_radii(), of what is nearest to it. By those a limb is as thick as it is, however large the balls are where it lies in another.
   /// @param segments as for polylines().
+  /// @param forks per vertex, see limb_forks(), of the same polylines.
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
-            std::span<const double> radius, const EllipseAt& ellipse_at);
+            std::span<const double> radius, std::span<const std::vector<LimbFork>> forks,
+            const EllipseAt& ellipse_at);
 
   /// The vertex that a place belongs to.
   /// @param nearest the vertex of the lines that it is nearest to.
@@ -66,6 +69,7 @@ class LimbTubes {
     }
   };
 
+  static double across(const Ring& ring, const Vec3& way);
   bool is_joint(std::uint32_t vertex) const { return !at_joint_[vertex].empty(); }
   void add_rings(const EllipseAt& ellipse_at, Limb& limb) const;
   std::size_t in_joint(const Limb& limb, std::size_t end) const;
@@ -75,6 +79,7 @@ class LimbTubes {
   };
   Free free_part(const Limb& limb) const;
   Ring leaving(const Limb& limb, const Free& free, std::size_t end) const;
+  double beyond_joint(const Limb& limb, std::size_t end, const Ring& leaving) const;
   void go_on_into_joints(Limb& limb);
   void compare(Limb& limb, std::size_t end) const;
   void find_hidden();
@@ -88,7 +93,8 @@ class LimbTubes {
 
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
-  std::vector<JointBalls> joints_;  // per vertex
+  std::span<const std::vector<LimbFork>> forks_;  // per vertex
+  std::vector<JointBalls> joints_;                // per vertex
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/unit.h"
+#include "core/curve/drawn_lines.h"
 #include "core/curve/tubes.h"
 #include "core/solid/solid_membership.h"
 
@@ -62,6 +63,32 @@ TEST(CentreLines, OfAThickTubeAreItsAxisWhateverTheyBeganAs) {
     for (const Vec3& at : places)
       if (at.z > 1 && at.z < 8) farthest = std::max(farthest, std::hypot(at.x, at.y));
     EXPECT_LT(farthest, 0.2 * kSpacing) << wave;
+  }
+}
+
+// Lines that are about parallel do not tell where they meet: the crotch does.
+TEST(CentreLines, HipsLieAsFarAboveTheCrotchAsLegsAreThickWhereverTheyBegan) {
+  constexpr double kSpacing = 0.1, kThick = 0.5, kApart = 0.6;
+  const auto foot = [](double side) { return Vec3{kApart * side, 0, -8}; };
+  const std::vector<Tube> tubes{
+      {{0, 0, 1}, {0, 0, 8}, 1}, {{-kApart, 0, 0.6}, foot(-1), kThick}, {{kApart, 0, 0.6}, foot(1), kThick}};
+  const Mesh mesh = tube_mesh(tubes, 0.1);
+  for (const double start : {0.4, 0.8, 1.1}) {
+    DrawnLines lines;
+    const std::uint32_t joint = lines.add({0, 0, start}, 1);
+    lines.go(joint, {0, 0, kSpacing}, static_cast<int>(std::lround((8 - start) / kSpacing)), 1);
+    for (const double side : {-1., 1.}) {
+      const Vec3 knee{kApart * side, 0, -0.6};
+      const std::uint32_t leg = lines.go(joint, (1. / 12) * (knee - lines.places[joint]), 12, kThick);
+      lines.go(leg, {0, 0, -kSpacing}, 74, kThick);
+    }
+    const std::vector<Vec3> tip(lines.places.size());
+    const std::vector<char> has_tip(lines.places.size(), 0);
+    centre_lines(
+        {.surface = mesh, .segments = lines.segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+        lines.places);
+    EXPECT_NEAR(lines.places[joint].z, kThick, 2 * kSpacing) << start << ": the crotch is at 0";
+    EXPECT_NEAR(lines.places[joint].x, 0, 0.2 * kSpacing) << start;
   }
 }
 

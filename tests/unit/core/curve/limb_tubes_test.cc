@@ -16,6 +16,7 @@ struct Tubed : DrawnLines {
   // A limb is round; along one axis it may be so many times as wide.
   std::function<Vec3(const Vec3& place)> wide = [](const Vec3&) { return Vec3{1, 1, 1}; };
 
+  std::vector<LimbFork> forks;    // of the joint, which is the first vertex
   std::size_t little = SIZE_MAX;  // from that vertex on little is nearest
 
   std::uint32_t nearest(const Vec3& at) const {
@@ -37,7 +38,9 @@ struct Tubed : DrawnLines {
     std::vector<double> radius;
     for (std::size_t v = 0; v < ball.size(); ++v)
       radius.push_back((v < little ? 1 : 0.1) * ball[v] * std::sqrt(wide(places[v]).x));
-    return places[LimbTubes(places, segments, ball, radius, ellipse).vertex_of(at, from)];
+    std::vector<std::vector<LimbFork>> parts(places.size());
+    for (const LimbFork& fork : forks) parts[0].push_back(fork);
+    return places[LimbTubes(places, segments, ball, radius, parts, ellipse).vertex_of(at, from)];
   }
 };
 
@@ -99,6 +102,37 @@ TEST(LimbTubes, ATrunkEndsInARoundEndWhereItsLimbsBegin) {
   for (const double side : {-1., 1.}) {
     EXPECT_LT(lines.owner({0.95 * 0.8 * side, 0, 0.95 * 0.6}).z, 0.001);
     EXPECT_GT(lines.owner({1.05 * 0.8 * side, 0, 1.05 * 0.6}).x * side, 0.5);
+  }
+}
+
+// However thick the trunk: a neck between shoulders begins where they part from it.
+TEST(LimbTubes, ATrunkEndsWhereTheLimbsBeyondPart) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 0.5);
+  lines.go(joint, {0, 0, -0.1}, 80, 1);
+  lines.go(joint, {0, 0, 0.1}, 80, 0.5);
+  lines.go(joint, {0.1, 0, 0}, 80, 0.5);
+  EXPECT_LT(lines.owner({0, 0, 0.95}).z, 0.01) << "no fork is known";
+  const auto fork = [&](double height) -> LimbFork { return {{{{1, false}, {2, false}}}, {0.5, 0, height}}; };
+  for (const double height : {0.3, 0.6}) {
+    lines.forks = {fork(height)};
+    const double end = height / std::sqrt(1 - 0.25);
+    EXPECT_LT(lines.owner({0, 0, end - 0.03}).z, 0.01) << height;
+    EXPECT_GT(lines.owner({0, 0, end + 0.03}).z, 0.01) << height;
+  }
+}
+
+// Nor is it narrower there where the joint's ball is.
+TEST(LimbTubes, ATrunkIsAsWideInAJointAsBelow) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 0.5);
+  lines.go(joint, {0, 0, -0.1}, 80, 1);
+  lines.go(joint, {0, 0, 0.1}, 80, 0.4);
+  lines.go(joint, {0.1, 0, 0}, 80, 0.4);
+  for (std::size_t v = 1; v < 5; ++v) lines.ball[v] = 0.6;
+  for (const double z : {-0.05, -0.3}) {
+    EXPECT_LT(lines.owner({0.95, 0, z}).x, 0.5) << z;
+    EXPECT_GT(lines.owner({1.05, 0, z}).x, 0.5) << z;
   }
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/vec3.h"
+#include "core/curve/limb_sections.h"
+
+namespace affskel::core {
+
+/// Where two limbs of a joint part.  Out along both, as far on the one as on the other, each sees the other until the solid
+/// ends between them: in the crotch, in an armpit.  Noise moves that place as little as the surface itself, however it
+/// moves the joint.
+struct LimbFork {
+  struct End {
+    std::uint32_t line = 0;
+    bool back = false;  ///< by its last vertex
+
+    bool operator==(const End&) const = default;
+  };
+  std::array<End, 2> limbs;
+  Vec3 place;  ///< between them, where the surface is first
+};
+
+/// How much what lies that way is ahead along a direction or against it, a unit vector: the squared cosine above a quarter,
+/// 0 where it is more than 60 degrees aside.
+double ahead(const Vec3& way, const Vec3& direction);
+
+/// @param lines see polylines(), by numbers in places.
+/// @param step along lines, > 0.
+/// @return per vertex: of the joint there; none of limbs that see each other all the way.
+std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
+                                              std::span<const std::vector<std::uint32_t>> lines,
+                                              const LimbSections& sections, double step);
+
+}  // namespace affskel::core
