@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -81,20 +82,24 @@ void find_in_chunks(Database& db, const FieldShape& field, const OnFault& on_fau
 }
 
 /// "" for sound ones.
-std::string fault_of_log(const FieldShape& field, std::string_view bytes, std::int64_t sum) {
+std::string fault_of_log(const FieldShape& field, std::string_view bytes, std::int64_t sum,
+                         const std::optional<std::int64_t>& part) {
   if (!log_is_sound(field.erosion_id, bytes, sum)) return "does not match its checksum";
   std::size_t bad = 0;
   for (std::size_t at = 0; at + wire::kPointRecordBytes <= bytes.size(); at += wire::kPointRecordBytes) {
     const wire::PointRecord record = wire::decode_point_record(bytes.data() + at);
-    if (record.point >= field.points || !reported(record, field)) ++bad;
+    const bool elsewhere = part && record.point / kLogPartPoints != *part;
+    if (record.point >= field.points || elsewhere || !reported(record, field)) ++bad;
   }
   return bad == 0 ? std::string() : std::to_string(bad) + " records that no report can have brought";
 }
 
 void find_in_log(Database& db, const FieldShape& field, const OnFault& on_fault) {
-  Statement row = db.query("SELECT id, data, sum FROM field_log WHERE erosion_id = ?", field.erosion_id);
+  Statement row =
+      db.query("SELECT id, data, sum, part FROM field_log WHERE erosion_id = ?", field.erosion_id);
   while (row.step()) {
-    std::string what = fault_of_log(field, row.blob(1), row.integer(2));
+    std::string what = fault_of_log(field, row.blob(1), row.integer(2),
+                                    row.is_null(3) ? std::nullopt : std::optional(row.integer(3)));
     if (what.empty()) continue;
     on_fault({"field_log", row.integer(0),
               "erosion " + std::to_string(field.erosion_id) + ", logged report " + row.text(0),

@@ -17,6 +17,11 @@ std::size_t memory_of(const v1::ErosionBounds& message) {
 
 }  // namespace
 
+void BoundsExchange::join(const std::string& job, const std::string& worker) {
+  const base::MutexLock lock(mutex_);
+  enter(job, worker);
+}
+
 void BoundsExchange::exchange(const std::string& job, const std::string& worker,
                               const std::vector<wire::PointRecord>& records, std::size_t room,
                               v1::ReportResponse& response) {

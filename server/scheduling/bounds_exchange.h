@@ -27,8 +27,11 @@ class BoundsExchange {
  public:
   explicit BoundsExchange(const BoundsExchangeOptions& options = {}) : options_(options) {}
 
+  /// A worker begins on a job: it has company from now on, and is kept what the others report.
+  void join(const std::string& job, const std::string& worker);
+
   /// Passes on a report that is committed, and adds to the answer what other workers on the job reported
-  /// since this worker's last one; nothing for its first.
+  /// since this worker's last one, or since it joined them; one that has not does so with its first.
   /// @param records of the report; passed on when in ascending order of points, as our workers send them.
   /// @param room bytes of bounds that the answer may hold on the wire; the rest comes with the next.
   void exchange(const std::string& job, const std::string& worker,

@@ -108,8 +108,8 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
   PollPtr self_;
 };
 
-LeaseQueue::LeaseQueue(Store& store, WorkerRegistry& registry, CallRoom& room)
-    : store_(store), registry_(registry), room_(room), thread_([this] { run(); }) {}
+LeaseQueue::LeaseQueue(Store& store, WorkerRegistry& registry, BoundsExchange& bounds, CallRoom& room)
+    : store_(store), registry_(registry), bounds_(bounds), room_(room), thread_([this] { run(); }) {}
 
 LeaseQueue::~LeaseQueue() {
   stop();
@@ -240,6 +240,7 @@ void LeaseQueue::end_poll(const PollPtr& poll, const grpc::Status& status) {
 void LeaseQueue::hand_over(const PollPtr& poll, v1::Lease lease) {
   remove(poll);
   registry_.granted(poll->request().worker(), lease);
+  if (lease.kind() == v1::TASK_KIND_ERODE) bounds_.join(lease.job().id(), poll->request().worker().id());
   const std::string token = lease.token();
   if (poll->answer(grpc::Status::OK, std::move(lease))) return;
   registry_.ended(token);

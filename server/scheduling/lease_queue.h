@@ -11,6 +11,7 @@
 #include "affskel/v1/worker_service.grpc.pb.h"
 #include "base/mutex.h"
 #include "calls/call_room.h"
+#include "scheduling/bounds_exchange.h"
 #include "scheduling/worker_registry.h"
 #include "store/store.h"
 
@@ -20,7 +21,8 @@ namespace affskel::server {
 /// order in which they came.  Thread-safe.
 class LeaseQueue {
  public:
-  LeaseQueue(Store& store, WorkerRegistry& registry, CallRoom& room);
+  /// @param bounds hears of who works on what field.
+  LeaseQueue(Store& store, WorkerRegistry& registry, BoundsExchange& bounds, CallRoom& room);
   ~LeaseQueue();
 
   /// A LeaseTask call.
@@ -47,6 +49,7 @@ class LeaseQueue {
 
   Store& store_;
   WorkerRegistry& registry_;
+  BoundsExchange& bounds_;
   CallRoom& room_;
 
   base::Mutex mutex_;

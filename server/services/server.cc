@@ -142,8 +142,8 @@ void Server::start(const ServerOptions& options) {
   room_.gate.emplace(*store_,
                      GateOptions{!options.tls.client_ca.empty(), [this] { return clock_.wall_ms(); }});
   jobs_ = std::make_unique<JobView>(*store_, registry_);
-  queue_ = std::make_unique<LeaseQueue>(*store_, registry_, room_);
-  worker_service_ = std::make_unique<WorkerServiceImpl>(room_, *store_, registry_, *queue_);
+  queue_ = std::make_unique<LeaseQueue>(*store_, registry_, bounds_, room_);
+  worker_service_ = std::make_unique<WorkerServiceImpl>(room_, *store_, registry_, *queue_, bounds_);
   erosion_service_ = std::make_unique<ErosionServiceImpl>(
       room_, *store_, registry_, *jobs_, hub_,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});

@@ -99,6 +99,7 @@ class Server {
   SystemClock clock_;
   EventHub hub_;
   WorkerRegistry registry_;
+  BoundsExchange bounds_;
   CallRoom room_;
   std::unique_ptr<Store> store_;
   std::unique_ptr<JobView> jobs_;

@@ -14,8 +14,9 @@ namespace affskel::server {
 /// The service for workers.  No call holds a thread while it waits for its worker.
 class WorkerServiceImpl final : public v1::WorkerService::CallbackService {
  public:
-  WorkerServiceImpl(CallRoom& room, Store& store, WorkerRegistry& registry, LeaseQueue& queue)
-      : room_(room), store_(store), registry_(registry), queue_(queue) {}
+  WorkerServiceImpl(CallRoom& room, Store& store, WorkerRegistry& registry, LeaseQueue& queue,
+                    BoundsExchange& bounds)
+      : room_(room), store_(store), registry_(registry), queue_(queue), bounds_(bounds) {}
 
   grpc::ServerUnaryReactor* LeaseTask(grpc::CallbackServerContext* context,
                                       const v1::LeaseTaskRequest* request,
@@ -45,7 +46,7 @@ class WorkerServiceImpl final : public v1::WorkerService::CallbackService {
   Store& store_;
   WorkerRegistry& registry_;
   LeaseQueue& queue_;
-  BoundsExchange bounds_;
+  BoundsExchange& bounds_;
 };
 
 }  // namespace affskel::server

@@ -20,9 +20,8 @@ constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
 // few points of a chunk still improve, and each page written costs its place in the log.
 constexpr std::size_t kStretchPoints = 256;
 
-// Logged records take no more than the field does, so that merging them costs no more than writing it; and
-// no more than this, for every reader keeps them in memory.
-constexpr std::int64_t kMaxLogBytes = std::int64_t{32} << 20;
+// Logged records take at most so many times what their part of the field does: merging them rewrites all of it.
+constexpr std::int64_t kMostLogged = 2;
 
 // Of the volume, by which E may exceed it: E has 36 significant bits.
 constexpr double kRoundedUp = 1 + 0x1p-30;
@@ -110,14 +109,14 @@ void sort_by_chunk(std::vector<PointRecord>& records) {
 /// Whether the records, sorted by chunk, are at least every second point of the chunks that they touch.  Such
 /// are written once when they are merged at once, and twice when they are logged first: a job's first
 /// reports.
-bool is_dense(const std::vector<PointRecord>& records) {
-  std::size_t chunks = 1;
-  for (std::size_t i = 1; i < records.size(); ++i) chunks += ByChunk{}(records[i - 1], records[i]) ? 1 : 0;
-  return 2 * records.size() >= chunks * static_cast<std::size_t>(kChunkPoints);
+bool is_dense(Records begin, Records end) {
+  std::ptrdiff_t chunks = 1;
+  for (Records i = begin + 1; i < end; ++i) chunks += ByChunk{}(i[-1], *i) ? 1 : 0;
+  return 2 * (end - begin) >= chunks * kChunkPoints;
 }
 
-std::int64_t log_limit(std::int64_t points) {
-  return std::min(kMaxLogBytes, points * static_cast<std::int64_t>(kRecordBytes));
+std::int64_t log_part_of(std::int64_t point) {
+  return point / kLogPartPoints;
 }
 
 std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std::int64_t index) {
@@ -169,14 +168,15 @@ void RecordBatch::clear() {
 
 namespace {
 
-void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t points,
-                       const std::vector<PointRecord>& records) {
+/// Merges [begin, last), sorted by chunk.
+void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t points, Records begin,
+                       Records last) {
   std::optional<BlobHandle> blob;
   std::string chunk;
-  for (auto begin = records.begin(); begin != records.end();) {
+  while (begin != last) {
     const std::int64_t index = begin->point / kChunkPoints;
-    const auto end = std::find_if(begin, records.end(),
-                                  [&](const PointRecord& r) { return r.point / kChunkPoints != index; });
+    const auto end =
+        std::find_if(begin, last, [&](const PointRecord& r) { return r.point / kChunkPoints != index; });
     if (const std::optional<std::int64_t> row = chunk_row(db, erosion_id, index)) {
       if (blob) {
         blob->reopen(*row);
@@ -200,52 +200,61 @@ void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t point
   }
 }
 
-// What is logged, with room for so many records more.
-std::vector<PointRecord> read_log(Database& db, std::int64_t erosion_id, std::size_t room = 0) {
+// What is logged of a part of the field.
+std::vector<PointRecord> read_log(Database& db, std::int64_t erosion_id, std::int64_t part) {
   std::vector<PointRecord> log;
-  log.reserve(static_cast<std::size_t>(logged_bytes(db, erosion_id)) / wire::kPointRecordBytes + room);
-  load_log(db, erosion_id, [&](std::string_view bytes) {
+  load_log(db, erosion_id, part, [&](std::string_view bytes) {
     for (; !bytes.empty(); bytes.remove_prefix(wire::kPointRecordBytes)) {
-      log.push_back(wire::decode_point_record(bytes.data()));
+      const PointRecord record = wire::decode_point_record(bytes.data());
+      if (log_part_of(record.point) == part) log.push_back(record);
     }
   });
   return log;
 }
 
-std::string log_bytes(const std::vector<PointRecord>& records) {
-  std::string bytes(records.size() * wire::kPointRecordBytes, '\0');
+std::string log_bytes(Records begin, Records end) {
+  std::string bytes(static_cast<std::size_t>(end - begin) * wire::kPointRecordBytes, '\0');
   char* to = bytes.data();
-  for (const PointRecord& record : records) {
-    wire::encode_point_record(to, record);
-    to += wire::kPointRecordBytes;
-  }
+  for (; begin != end; ++begin, to += wire::kPointRecordBytes) wire::encode_point_record(to, *begin);
   return bytes;
+}
+
+/// Merges what is logged of a part, and [begin, end) of the same, into its chunks.  What an earlier server logged stays
+/// until the field is settled.
+void merge_part(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t part, Records begin,
+                Records end) {
+  std::vector<PointRecord> all = read_log(db, erosion_id, part);
+  all.insert(all.end(), begin, end);
+  sort_by_chunk(all);
+  merge_into_chunks(db, erosion_id, points, all.begin(), all.end());
+  db.run("DELETE FROM field_log WHERE erosion_id = ? AND part = ?", erosion_id, part);
 }
 
 }  // namespace
 
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                    const std::vector<PointRecord>& records) {
-  if (records.empty()) return;
-  if (is_dense(records)) return merge_into_chunks(db, erosion_id, points, records);
-  const std::int64_t logged = logged_bytes(db, erosion_id);
-  if (logged + static_cast<std::int64_t>(records.size() * wire::kPointRecordBytes) <= log_limit(points)) {
-    insert_log(db, erosion_id, log_bytes(records));
-    return;
+  for (Records begin = records.begin(); begin != records.end();) {
+    const std::int64_t part = log_part_of(begin->point);
+    const Records end = std::find_if(begin, records.end(),
+                                     [&](const PointRecord& r) { return log_part_of(r.point) != part; });
+    const std::int64_t most = kMostLogged * static_cast<std::int64_t>(kRecordBytes) *
+                              std::min(kLogPartPoints, points - part * kLogPartPoints);
+    if (is_dense(begin, end)) {
+      merge_into_chunks(db, erosion_id, points, begin, end);
+    } else if (const std::string bytes = log_bytes(begin, end);
+               logged_bytes(db, erosion_id, part) + static_cast<std::int64_t>(bytes.size()) <= most) {
+      insert_log(db, erosion_id, part, bytes);
+    } else {
+      merge_part(db, erosion_id, points, part, begin, end);
+    }
+    begin = end;
   }
-  if (logged == 0) return merge_into_chunks(db, erosion_id, points, records);
-  std::vector<PointRecord> all = read_log(db, erosion_id, records.size());
-  all.insert(all.end(), records.begin(), records.end());
-  sort_by_chunk(all);
-  merge_into_chunks(db, erosion_id, points, all);
-  db.run("DELETE FROM field_log WHERE erosion_id = ?", erosion_id);
 }
 
 void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points) {
-  std::vector<PointRecord> log = read_log(db, erosion_id);
-  if (log.empty()) return;
-  sort_by_chunk(log);
-  merge_into_chunks(db, erosion_id, points, log);
+  for (std::int64_t part = 0; part * kLogPartPoints < points; ++part)
+    merge_part(db, erosion_id, points, part, {}, {});
   db.run("DELETE FROM field_log WHERE erosion_id = ?", erosion_id);
 }
 
@@ -281,11 +290,14 @@ std::size_t field_chunk_points(std::int64_t points, std::int64_t index) {
 }
 
 FieldView::FieldView(Database& db, std::int64_t erosion_id, std::int64_t points)
-    : db_(db), erosion_id_(erosion_id), points_(points), log_(read_log(db, erosion_id)) {
-  sort_by_chunk(log_);
-}
+    : db_(db), erosion_id_(erosion_id), points_(points) {}
 
-std::string FieldView::chunk(std::int64_t index) const {
+std::string FieldView::chunk(std::int64_t index) {
+  if (const std::int64_t part = log_part_of(index * kChunkPoints); part != part_) {
+    log_ = read_log(db_, erosion_id_, part);
+    sort_by_chunk(log_);
+    part_ = part;
+  }
   std::string bytes = load_chunk(db_, erosion_id_, index);
   if (bytes.empty()) bytes = empty_chunk(field_chunk_points(points_, index));
   const auto [begin, end] = std::equal_range(log_.begin(), log_.end(), index, ByChunk{});

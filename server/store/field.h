@@ -15,6 +15,9 @@ namespace affskel::server {
 /// Points per stored chunk of a field.
 inline constexpr std::int64_t kChunkPoints = 4096;
 
+/// Points of so many chunks have a part of the log: what of it a reader has in memory at a time is at most 5 MiB.
+inline constexpr std::int64_t kLogPartPoints = 32 * kChunkPoints;
+
 /// Records of a report that are held before they are merged: 3 MiB.  A report may bring any number of them.
 inline constexpr std::size_t kMaxRecordsHeld = std::size_t{1} << 17;
 
@@ -51,8 +54,8 @@ class RecordBatch {
 };
 
 /// Merges records, sorted by chunk, into the field of `points` points: per point the lexicographic minimum of
-/// (E, direction), the area travelling with it.  Scattered records are only logged; dense ones, or a log
-/// grown long, are merged into the stored chunks, of which only what they touch is loaded and rewritten.
+/// (E, direction), the area travelling with it.  Scattered records are only logged; dense ones, or a part of the
+/// log grown long, are merged into the stored chunks, of which only what they touch is loaded and rewritten.
 void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
                    const std::vector<wire::PointRecord>& records);
 
@@ -70,20 +73,22 @@ std::int64_t field_chunk_count(std::int64_t points);
 /// Points of one of its chunks.
 std::size_t field_chunk_points(std::int64_t points, std::int64_t index);
 
-/// A field as it is in the database's transaction, the log included (at most 32 MiB of it, kept in memory).
+/// A field as it is in the database's transaction, the log included.
 class FieldView {
  public:
   FieldView(Database& db, std::int64_t erosion_id, std::int64_t points);
 
   std::int64_t chunk_count() const { return field_chunk_count(points_); }
 
-  /// Bytes of chunk `index`, empty records where no report has been.
-  std::string chunk(std::int64_t index) const;
+  /// Bytes of chunk `index`, empty records where no report has been.  In ascending order: each part of the log is then
+  /// read once.
+  std::string chunk(std::int64_t index);
 
  private:
   Database& db_;
   std::int64_t erosion_id_;
   std::int64_t points_;
+  std::int64_t part_ = -1;              // of the log
   std::vector<wire::PointRecord> log_;  // by chunk
 };
 

@@ -62,14 +62,17 @@ void sign_chunk(Database& db, std::int64_t erosion_id, std::int64_t index, std::
       erosion_id, index, checksum(erosion_id, index, bytes));
 }
 
-void insert_log(Database& db, std::int64_t erosion_id, std::string_view bytes) {
-  db.run("INSERT INTO field_log (erosion_id, data, sum) VALUES (?, ?, ?)", erosion_id, Blob{bytes},
-         checksum(erosion_id, kLogIndex, bytes));
+void insert_log(Database& db, std::int64_t erosion_id, std::int64_t part, std::string_view bytes) {
+  db.run("INSERT INTO field_log (erosion_id, part, bytes, data, sum) VALUES (?, ?, ?, ?, ?)", erosion_id,
+         part, bytes.size(), Blob{bytes}, checksum(erosion_id, kLogIndex, bytes));
 }
 
-void load_log(Database& db, std::int64_t erosion_id, const std::function<void(std::string_view)>& take) {
-  Statement row =
-      db.query("SELECT data, sum, id FROM field_log WHERE erosion_id = ? ORDER BY id", erosion_id);
+void load_log(Database& db, std::int64_t erosion_id, std::int64_t part,
+              const std::function<void(std::string_view)>& take) {
+  Statement row = db.query(
+      "SELECT data, sum, id FROM field_log WHERE erosion_id = ?1 AND part = ?2 UNION ALL"
+      " SELECT data, sum, id FROM field_log WHERE erosion_id = ?1 AND part IS NULL",
+      erosion_id, part);
   while (row.step()) {
     if (!log_is_sound(erosion_id, row.blob(0), row.integer(1))) {
       throw damaged(erosion_id, "logged report " + row.text(2));
@@ -82,8 +85,9 @@ bool log_is_sound(std::int64_t erosion_id, std::string_view bytes, std::int64_t 
   return sum == checksum(erosion_id, kLogIndex, bytes);
 }
 
-std::int64_t logged_bytes(Database& db, std::int64_t erosion_id) {
-  return db.integer("SELECT sum(length(data)) FROM field_log WHERE erosion_id = ?", erosion_id).value_or(0);
+std::int64_t logged_bytes(Database& db, std::int64_t erosion_id, std::int64_t part) {
+  return db.integer("SELECT sum(bytes) FROM field_log WHERE erosion_id = ? AND part = ?", erosion_id, part)
+      .value_or(0);
 }
 
 }  // namespace affskel::server

@@ -26,7 +26,7 @@ constexpr std::int64_t kParts = 16, kMinPart = 16;
 std::unordered_map<std::int64_t, std::int64_t> values_by_position(Database& db, const JobRow& job,
                                                                   const DirectionPositions& positions) {
   std::unordered_map<std::int64_t, std::int64_t> count;
-  const FieldView field(db, job.erosion_id, job.points);
+  FieldView field(db, job.erosion_id, job.points);
   for (std::int64_t index = 0; index < field.chunk_count(); ++index) {
     const std::string chunk = field.chunk(index);
     for (std::size_t at = 0; at < chunk.size(); at += kRecordBytes) {
@@ -246,7 +246,7 @@ SampleResult compare_sample(Database& db, const TaskRow& task, std::string_view 
                                                      " points");
   }
   const std::unordered_set<std::uint32_t> sampled = sample_directions(db, job, task);
-  const FieldView field(db, job.erosion_id, job.points);
+  FieldView field(db, job.erosion_id, job.points);
   SampleResult result;
   for (std::int64_t index = 0; index < field.chunk_count(); ++index) {
     const std::string chunk = field.chunk(index);

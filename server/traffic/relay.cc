@@ -38,6 +38,11 @@ using Clock = std::chrono::steady_clock;
 // Passed on at once: a frame of the size that HTTP/2 begins with, and a record of TLS.
 constexpr std::size_t kPieceBytes = 16384;
 
+// From clients that send more than that at a time, as workers do with their reports: every piece costs a dozen
+// calls of the system.  So many clients may at once.
+constexpr std::size_t kLargePieceBytes = std::size_t{256} << 10;
+constexpr std::size_t kLargeSenders = 64;
+
 // Between two ticks: the process was stopped.
 constexpr std::chrono::seconds kStandstill{2};
 
@@ -49,11 +54,13 @@ constexpr Clock::time_point kNever = Clock::time_point::max();
 /// Room for a piece while one is on its way.
 class Piece {
  public:
-  asio::mutable_buffer room() { return asio::buffer(bytes_.get(), kPieceBytes); }
+  explicit Piece(std::size_t size) : size_(size), bytes_(std::make_unique_for_overwrite<char[]>(size)) {}
+  asio::mutable_buffer room() { return asio::buffer(bytes_.get(), size_); }
   std::string_view first(std::size_t size) const { return {bytes_.get(), size}; }
 
  private:
-  std::unique_ptr<char[]> bytes_ = std::make_unique_for_overwrite<char[]>(kPieceBytes);
+  std::size_t size_;
+  std::unique_ptr<char[]> bytes_;
 };
 
 }  // namespace
@@ -84,6 +91,7 @@ struct Relay::Shared {
 
   const RelayOptions options;
   std::atomic<std::size_t> held_frames = 0;
+  std::atomic<std::size_t> large_senders = 0;
   base::Mutex mutex;
   std::unordered_map<std::string, TokenBucket> of_peers ABSL_GUARDED_BY(mutex);
   TokenBucket of_all ABSL_GUARDED_BY(mutex);
@@ -111,6 +119,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
 
   ~Connection() override {
     note_held_frames(0);
+    note_sender(false);
     if (guard_.open_calls() > shared_.options.free_calls) shared_.charge(peer_, guard_.open_calls());
     {
       const base::MutexLock lock(shared_.mutex);
@@ -171,9 +180,10 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   /// One piece; false at the end.
   asio::awaitable<bool> pass_inward() {
     co_await client_->wait();
-    Piece piece;
+    Piece piece(is_large_ ? kLargePieceBytes : kPieceBytes);
     const std::size_t got = co_await client_->read(piece.room());
     if (got == 0) co_return false;
+    note_sender(got >= kPieceBytes);
     std::size_t cost = guard_.from_client(piece.first(got));
     note_held_frames(guard_.held_frames());
     // Answers pile up for a client that reads none, of which the shortest are bounded by nothing else.
@@ -234,6 +244,17 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
       throw FrameFault("too many frames of calls under way are held, and most of them are its own");
   }
 
+  /// Whether it sends so much that its next piece should be large.
+  void note_sender(bool large) {
+    if (large == is_large_) return;
+    if (large && shared_.large_senders.fetch_add(1) < kLargeSenders) {
+      is_large_ = true;
+    } else {
+      --shared_.large_senders;
+      is_large_ = false;
+    }
+  }
+
   /// The client has said the first words.
   void connect() {
     int ends[2];
@@ -263,7 +284,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
 
   asio::awaitable<bool> pass_outward() {
     co_await server_->wait();
-    Piece piece;
+    Piece piece(kPieceBytes);
     const std::size_t got = co_await server_->read(piece.room());
     if (got == 0) co_return false;
     guard_.from_server(piece.first(got));
@@ -290,6 +311,7 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
   std::size_t held_frames_ = 0;
   std::uint64_t calls_ = 0;
   bool is_sending_ = false;
+  bool is_large_ = false;  // sender
   std::atomic<std::uint64_t> answered_ = 0;
   std::atomic<Clock::rep> deadline_ = 0;
 };

@@ -216,10 +216,12 @@ core::Erosion& PreparedJob::erosion(unsigned threads, std::string_view stored) {
   options.track_changes = true;
   auto erosion = std::make_unique<core::Erosion>(solid_, lattice_, directions_, options);
   const double per_volume = volume_unit(), per_area = area_unit();
-  visit_field(stored, lattice_.points, [&](std::uint32_t p, const core::FieldValue& value) {
-    if (value.direction == core::FieldValue::kNoDirection) return;
-    erosion->field().offer(p, {value.erosion / per_volume, value.area / per_area, value.direction});
-  });
+  if (!stored.empty()) {
+    visit_field(stored, lattice_.points, [&](std::uint32_t p, const core::FieldValue& value) {
+      if (value.direction == core::FieldValue::kNoDirection) return;
+      erosion->field().offer(p, {value.erosion / per_volume, value.area / per_area, value.direction});
+    });
+  }
   erosion->field().take_changes([](std::uint32_t, const core::FieldValue&) {});  // the server knows these
   erosion_ = std::move(erosion);
   return *erosion_;

@@ -293,7 +293,8 @@ class LeaseLoop {
       const LeaseKeeper keeper(link_, lease, context);
       job = &obtain(lease, context);
       require_same_job(lease, *job);
-      const std::string stored = job->has_erosion()
+      // Of a field that nothing is known of there is nothing to learn.
+      const std::string stored = job->has_erosion() || lease.job().directions_done() == 0
                                      ? std::string()
                                      : link_.fetch(lease.token(), v1::ARTIFACT_KIND_FIELD, context.token());
       core::throw_if_stopped(&context);

@@ -126,11 +126,15 @@ class Progress : public core::ExecutionContext {
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
-// What improved since the last call, in messages of the size that the wire takes.
-std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core::ErosionField& field) {
+// Of a report that is made at once: what the server holds before it merges.
+constexpr std::uint32_t kRecordsPerReport = 4 * wire::kRecordsPerMessage;
+
+// What improved in a part of the field since the last call, in messages of the size that the wire takes.
+std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core::ErosionField& field,
+                                                   std::size_t part, std::size_t parts) {
   std::vector<v1::ReportErosionRequest> messages;
   v1::FieldRecords* records = nullptr;
-  field.take_changes([&](std::uint32_t point, const core::FieldValue& value) {
+  const auto take = [&](std::uint32_t point, const core::FieldValue& value) {
     if (records == nullptr || records->point_size() == wire::kRecordsPerMessage) {
       records = messages.emplace_back().mutable_records();
     }
@@ -139,7 +143,8 @@ std::vector<v1::ReportErosionRequest> take_records(const PreparedJob& job, core:
     records->add_direction(record.direction);
     records->add_erosion(record.erosion);
     records->add_area(record.area);
-  });
+  };
+  field.take_changes(take, part, parts);
   return messages;
 }
 
@@ -156,10 +161,21 @@ void take_bounds(const v1::ReportResponse& response, const PreparedJob& job, cor
   }
 }
 
+// A report that is large is made in parts, of which the last calls the positions done: what other workers found
+// meanwhile comes with the answer to each, and need not be reported in the next.  So workers begin at different places.
 v1::ReportResponse report(const v1::ReportErosionHeader& header, const PreparedJob& job,
                           core::Erosion& erosion, ServerLink& link) {
-  v1::ReportResponse response = link.report(header, take_records(job, erosion.field()));
-  take_bounds(response, job, erosion.field());
+  core::ErosionField& field = erosion.field();
+  const std::size_t parts = 1 + field.changes() / kRecordsPerReport;
+  const std::size_t first = std::hash<std::string>()(header.token()) % parts;
+  v1::ReportErosionHeader of_part;
+  of_part.set_token(header.token());
+  v1::ReportResponse response;
+  for (std::size_t i = 1; i <= parts && !response.cancelled(); ++i) {
+    response =
+        link.report(i == parts ? header : of_part, take_records(job, field, (first + i) % parts, parts));
+    take_bounds(response, job, field);
+  }
   return response;
 }
 

@@ -53,6 +53,7 @@ v1::Lease erode_lease(const PreparedJob& prepared, const std::string& token, std
                       std::uint64_t end) {
   v1::Lease lease = derive_lease(prepared, token, v1::TASK_KIND_ERODE);
   lease.mutable_job()->set_order_stride(wire::direction_stride(prepared.directions().size()));
+  lease.mutable_job()->set_directions_done(1);  // as if others had begun
   v1::PositionRange* range = lease.add_positions();
   range->set_begin(begin);
   range->set_end(end);

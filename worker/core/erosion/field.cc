@@ -48,6 +48,15 @@ FieldValue ErosionField::value(std::uint32_t point) const {
   return {erosion_[point], area_[point], direction_[point]};
 }
 
+std::uint32_t ErosionField::changes() const {
+  std::uint32_t count = 0;
+  for (const std::uint16_t& group : changed_) {
+    const std::uint16_t mask = Mask(const_cast<std::uint16_t&>(group)).load(std::memory_order_relaxed);
+    count += static_cast<std::uint32_t>(std::popcount(mask));
+  }
+  return count;
+}
+
 void ErosionField::take_group(std::uint32_t group, ChangedGroup& taken) {
   taken.count = 0;
   const std::lock_guard<SpinLock> guard(lock_of(group * kGroup));

@@ -56,12 +56,16 @@ class ErosionField {
   /// A consistent copy of one value; without a direction after bound().
   FieldValue value(std::uint32_t point) const;
 
-  /// Calls `visit(point, value)` for every point that improved since it was last visited, in ascending order,
-  /// with a value that is at least as new as the improvement.
+  /// Number of points that take_changes() would visit now.
+  std::uint32_t changes() const;
+
+  /// Calls `visit(point, value)` for every point of part `part` of `parts` of the field that improved since it was last
+  /// visited, in ascending order, with a value that is at least as new as the improvement.
   template <class Visit>
-  void take_changes(Visit visit) {
+  void take_changes(Visit visit, std::size_t part = 0, std::size_t parts = 1) {
     ChangedGroup taken;
-    for (std::size_t group = 0; group < changed_.size(); ++group) {
+    const std::size_t end = changed_.size() * (part + 1) / parts;
+    for (std::size_t group = changed_.size() * part / parts; group < end; ++group) {
       if (std::atomic_ref<std::uint16_t>(changed_[group]).load(std::memory_order_relaxed) == 0) continue;
       take_group(static_cast<std::uint32_t>(group), taken);
       for (std::uint32_t n = 0; n < taken.count; ++n) visit(taken.point[n], taken.value[n]);

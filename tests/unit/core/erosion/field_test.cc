@@ -47,6 +47,22 @@ TEST(ErosionField, TellsEachChangeOnceInAscendingOrder) {
   EXPECT_EQ(taken_points(field), (std::vector<std::uint32_t>{2}));
 }
 
+TEST(ErosionField, TellsChangesInParts) {
+  ErosionField field(1000, true);
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t p = 0; p < 1000; p += 3) points.push_back(p);
+  for (const std::uint32_t p : points) field.offer(p, {5, 1, 1});
+  EXPECT_EQ(field.changes(), points.size());
+  std::vector<std::uint32_t> taken;
+  for (std::size_t part = 0; part < 7; ++part) {
+    const std::size_t before = taken.size();
+    field.take_changes([&](std::uint32_t p, const FieldValue&) { taken.push_back(p); }, part, 7);
+    EXPECT_NEAR(static_cast<double>(taken.size() - before), 1000 / 21.0, 12);
+    EXPECT_EQ(field.changes(), points.size() - taken.size());
+  }
+  EXPECT_EQ(taken, points);
+}
+
 TEST(ErosionField, ABoundRulesOutWhatIsGreaterOnly) {
   ErosionField field(4, true);
   for (std::uint32_t p = 0; p < 4; ++p) field.offer(p, {5, 1, 3});

@@ -58,6 +58,17 @@ TEST(BoundsExchange, TellsEachWorkerWhatTheOthersReportedSince) {
   EXPECT_EQ(told(exchange, "job", "b"), (std::map<std::uint64_t, double>{{0, 8.0}}));
 }
 
+TEST(BoundsExchange, WhoHasJoinedHearsWhatCameBeforeItsFirstReport) {
+  BoundsExchange exchange;
+  exchange.join("job", "a");
+  EXPECT_TRUE(told(exchange, "job", "a", {record(1, 1.0)}).empty());
+  EXPECT_EQ(exchange.kept(), 0U) << "alone";
+  exchange.join("job", "b");
+  EXPECT_TRUE(told(exchange, "job", "a", {record(3, 2.0)}).empty());
+  exchange.join("job", "b");  // its next block
+  EXPECT_EQ(told(exchange, "job", "b"), (std::map<std::uint64_t, double>{{3, 2.0}}));
+}
+
 TEST(BoundsExchange, KeepsJobsApart) {
   BoundsExchange exchange;
   for (const char* worker : {"a", "b"}) {

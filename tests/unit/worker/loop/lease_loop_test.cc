@@ -88,6 +88,15 @@ TEST_F(LoopTest, ErodesBlockAfterBlock) {
   EXPECT_EQ(server_.calls("ReturnLease"), 0);
 }
 
+TEST_F(LoopTest, FetchesNoFieldOfWhichNothingIsKnown) {
+  v1::Lease lease = erode_lease(prepared_, "a", 0, 256);
+  lease.mutable_job()->set_directions_done(0);
+  offer(lease);
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(server_.calls("FetchInput4"), 0);
+  EXPECT_TRUE(merged(prepared_, server_.reports()) == finished_field(prepared_));
+}
+
 TEST_F(LoopTest, NamesTheLeasesThatItHoldsWhenItAsksForMore) {
   const std::vector<std::string> tokens = {"a", "b", "c"};
   for (std::size_t i = 0; i < tokens.size(); ++i)

@@ -1,5 +1,7 @@
 #include "tasks/erode_task.h"
 
+#include <set>
+
 #include "link_fixture.h"
 #include "wire/erosion_bound.h"
 
@@ -118,6 +120,51 @@ TEST_F(ErodeTest, ObeysACancellation) {
   EXPECT_EQ(erode(lease, prepared_, erosion, to_server, stop_.get_token(), last_, [] {}),
             ErodeEnd::kCancelled);
   EXPECT_EQ(server_.reports().size(), 1U);
+}
+
+// The first report of a large field goes in parts, of which only the last calls anything done; what the answers to the
+// others tell is not reported any more.
+TEST_F(ErodeTest, MakesALargeReportInParts) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_target_points(300000);
+  params.set_directions("sphere:32");
+  PreparedJob job(sample_mesh(), params);
+  const auto reported = [&](bool answered) {
+    PreparedJob one(sample_mesh(), params);
+    core::Erosion& erosion = one.erosion(1, {});
+    v1::Lease lease = erode_lease(one, "t", 0, one.directions().size());
+    lease.set_report_interval_ms(60000);
+    server_.on_report([&](const v1::ReportErosionHeader&) {
+      v1::ReportResponse response;
+      v1::ErosionBounds* bounds = response.add_bounds();
+      for (std::uint32_t p = 0; answered && p < one.lattice().points; ++p) {
+        bounds->add_step(p == 0 ? 0 : 1);
+        bounds->add_bound(wire::bound_above(1e-3));
+      }
+      return response;
+    });
+    const std::size_t before = server_.reports().size();
+    ServerLink to_server = link();
+    EXPECT_EQ(erode(lease, one, erosion, to_server, stop_.get_token(), last_, [] {}), ErodeEnd::kBlockDone);
+    last_.wait();
+    const std::vector<FakeServer::Report> reports = server_.reports();
+    return std::vector<FakeServer::Report>(reports.begin() + static_cast<std::ptrdiff_t>(before),
+                                           reports.end());
+  };
+  const std::vector<FakeServer::Report> all = reported(false), few = reported(true);
+  ASSERT_EQ(all.size(), 3U);
+  std::set<std::uint32_t> points;
+  for (const FakeServer::Report& report : all) {
+    const bool last = &report == &all.back();
+    EXPECT_EQ(report.header.block_done(), last);
+    EXPECT_EQ(report.header.positions_done().empty(), !last);
+    EXPECT_NEAR(report.records.point_size(), job.lattice().points / 3.0, 100);
+    points.insert(report.records.point().begin(), report.records.point().end());
+  }
+  EXPECT_EQ(points.size(), job.lattice().points);
+  ASSERT_EQ(few.size(), 3U);
+  EXPECT_EQ(few[1].records.point_size() + few[2].records.point_size(), 0) << "outdone";
+  EXPECT_EQ(positions(few).size(), job.directions().size());
 }
 
 }  // namespace
