@@ -149,7 +149,7 @@ void torus_experiment(const Setting& setting, Report& report) {
       "holes at dT = %g, %llu at dT = %g: the ring is open), but the level of E plays no part in finding "
       "shocks. In the plane z = 0 the normals jump on the thin side as well, by up to %.0f degrees; on "
       "the thick side they jump by up to %.0f degrees, and the threshold 7 asks for about 70. It is the "
-      "threshold that opens the ring, and in `chords` the least turn of a strong shock, 89 degrees.",
+      "threshold that opens the ring, and in `chords` the least turn of a strong shock, 84 degrees.",
       kNarrowest, static_cast<unsigned long long>(coarse.betti.holes), coarse.job.lattice.spacing,
       static_cast<unsigned long long>(fine.betti.holes), fine.job.lattice.spacing, thin, thick));
   report.compare(

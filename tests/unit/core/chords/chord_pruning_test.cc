@@ -148,9 +148,9 @@ TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
   EXPECT_EQ(kept.shocks.size(), 81U);
 }
 
-// The volume is 40 * 20 * 4 = 3200, a thousandth of it 3.2.
+// The volume is 40 * 20 * 4 = 3200, two thousandths of it 6.4.
 TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
-  const PrunedPlane plane = {{0, 10, 0, 10, 1, 1, 3.3}, {20, 10, 0, 10, 1, 1, 3.1}};
+  const PrunedPlane plane = {{0, 10, 0, 10, 1, 1, 6.5}, {20, 10, 0, 10, 1, 1, 6.3}};
   EXPECT_EQ(plane.prune().shocks.size(), 100U);
   Options options = quarter();
   options.min_erosion = 0;

@@ -98,7 +98,7 @@ TEST(EmptySheetAdvice, NamesAThresholdThatKeepsTheHeaviestPiece) {
 TEST(EmptySheetAdvice, NamesTheWidestAngleThereIs) {
   NormalBlock block({10, 10, 10});
   const Advice advice = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn);
-  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 89")) << advice.text;
+  EXPECT_TRUE(says(advice, "differ by 29 degrees at most, and a skeleton needs 84")) << advice.text;
   EXPECT_FALSE(suggests(advice, "frame", "axis"));
   EXPECT_TRUE(suggests(advice, "directions", "triangles+sphere:2000"));
   EXPECT_TRUE(is_plain(advice));
