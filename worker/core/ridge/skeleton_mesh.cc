@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
@@ -21,7 +22,8 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 12;        // each evens a rim out over one more neighbour
+constexpr int kRimPasses = 48;        // of rims: over about five neighbours
+constexpr int kLeastRimPasses = 12;   // also of the smallest rim
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
@@ -43,8 +45,10 @@ class Placing {
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
-    even_out(fixed_on_rim(), kRimPasses, context,
-             [&](std::uint32_t v) { return 0.5 * way_to_mean(v, rim_neighbours_); });
+    const std::vector<double> steps = rim_steps();
+    even_out(fixed_on_rim(), kRimPasses, context, [&](std::uint32_t v) {
+      return kept_off_surface(v, steps[v] * way_to_mean(v, rim_neighbours_));
+    });
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
     even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
@@ -97,7 +101,9 @@ class Placing {
     }
     for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
       if (!of_surface[v]) continue;
+      const std::uint32_t point = mesh_.vertices[v].point;
       mesh_.vertices[v] = *on_surface(v);
+      mesh_.vertices[v].point = point;
       bound_[v] = 1;
     }
   }
@@ -165,6 +171,22 @@ class Placing {
     for (std::uint32_t v = 0; v < met.size(); ++v)
       if (met[v] > 0) drawn[v].strength = from_.low;
     mesh_.vertices = std::move(drawn);
+  }
+
+  // How much of the way to the mean of its neighbours a vertex goes in a pass.  Half of it would draw a circle of n vertices
+  // together to 1 / e of its radius in n^2 / 10 passes: small rims go less.
+  std::vector<double> rim_steps() const {
+    const auto all = static_cast<std::uint32_t>(cells_.vertices.size());
+    DisjointSets rims(all);
+    for (std::uint32_t v = 0; v < all; ++v)
+      for (const std::uint32_t to : rim_neighbours_[v]) rims.unite(v, to);
+    std::vector<double> count(all, 0), steps;
+    for (std::uint32_t v = 0; v < all; ++v) ++count[rims.find(v)];
+    for (std::uint32_t v = 0; v < all; ++v) {
+      const double n = count[rims.find(v)];
+      steps.push_back(0.5 * std::clamp(0.1 * n * n, 1.0 * kLeastRimPasses, 1.0 * kRimPasses) / kRimPasses);
+    }
+    return steps;
   }
 
   // Corners of the rim, and where something else begins, stay.
