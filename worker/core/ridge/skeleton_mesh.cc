@@ -45,8 +45,9 @@ class Placing {
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
-    const std::vector<double> steps = rim_steps();
-    even_out(fixed_on_rim(), kRimPasses, context, [&](std::uint32_t v) {
+    const std::vector<char> fixed_rim = fixed_on_rim();
+    const std::vector<double> steps = rim_steps(fixed_rim);
+    even_out(fixed_rim, kRimPasses, context, [&](std::uint32_t v) {
       return kept_off_surface(v, steps[v] * way_to_mean(v, rim_neighbours_));
     });
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
@@ -175,11 +176,12 @@ class Placing {
 
   // How much of the way to the mean of its neighbours a vertex goes in a pass.  Half of it would draw a circle of n vertices
   // together to 1 / e of its radius in n^2 / 10 passes: small rims go less.
-  std::vector<double> rim_steps() const {
+  std::vector<double> rim_steps(const std::vector<char>& fixed) const {
     const auto all = static_cast<std::uint32_t>(cells_.vertices.size());
     DisjointSets rims(all);
     for (std::uint32_t v = 0; v < all; ++v)
-      for (const std::uint32_t to : rim_neighbours_[v]) rims.unite(v, to);
+      for (const std::uint32_t to : rim_neighbours_[v])
+        if (!fixed[v] && !fixed[to]) rims.unite(v, to);
     std::vector<double> count(all, 0), steps;
     for (std::uint32_t v = 0; v < all; ++v) ++count[rims.find(v)];
     for (std::uint32_t v = 0; v < all; ++v) {
