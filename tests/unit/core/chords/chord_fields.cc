@@ -88,6 +88,10 @@ FrameField field_of_branches(const Lattice& lattice, const std::vector<Branch>& 
   return field;
 }
 
+std::array<Vec3, 3> cubic_axes(double h) {
+  return {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}};
+}
+
 ErodedSolid::ErodedSolid(const Mesh& mesh, const std::array<Vec3, 3>& axes, const std::string& directions,
                          bool refined)
     : solid(make_solid(mesh)),

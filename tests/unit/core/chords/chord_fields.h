@@ -35,6 +35,9 @@ struct BoxLattice {
 /// The least of the branches at each sample point; a branch's number is its direction.
 FrameField field_of_branches(const Lattice& lattice, const std::vector<Branch>& branches);
 
+/// Of a lattice parallel to the coordinates.
+std::array<Vec3, 3> cubic_axes(double h);
+
 /// A solid eroded for real.
 struct ErodedSolid {
   Solid solid;

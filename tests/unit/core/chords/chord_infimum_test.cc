@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "core/chords/chord_fields.h"
@@ -11,10 +10,6 @@
 
 namespace affskel::core {
 namespace {
-
-std::array<Vec3, 3> cubic_axes(double h) {
-  return {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}};
-}
 
 ChordSheet sheet_of(const ErodedSolid& eroded) {
   return chord_sheet(eroded.solid, eroded.lattice, eroded.field, {.over_set = false});

@@ -29,10 +29,6 @@
 namespace affskel::core {
 namespace {
 
-std::array<Vec3, 3> cubic_axes(double h) {
-  return {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}};
-}
-
 BettiNumbers betti(const ChordSheet& sheet) {
   Mesh mesh;
   for (const SheetVertex& v : sheet.vertices) mesh.points.push_back(v.position);
