@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/collapse/dual_complex.h"
-#include "core/curve/surface_points.h"
+#include "core/curve/parted_surface.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/spatial/point_index.h"
 #include "core/surface/surface_thickness.h"
@@ -43,7 +43,7 @@ class Parts {
         curve_(curves_.at(threshold)),
         graph_(curves_.graph_of(curve_)),
         points_(parts_of_points(curve_, graph_)),
-        next_points_(core::surface_points(solid_, field.lattice(), field.context())) {
+        surface_(core::parted_surface(solid_, field.lattice(), points_, field.context())) {
     *message_.mutable_curve() = curves_.message_of(curve_, threshold);
   }
 
@@ -86,14 +86,14 @@ class Parts {
     std::vector<core::Vec3> places;
     for (std::uint32_t v = 0; v < curve_.vertices.size(); ++v) places.push_back(place_of(v));
     const core::PointIndex index(places);
-    for (const core::Vec3& point : solid_.mesh.points)
+    for (const core::Vec3& point : surface_.mesh.points)
       append(to_mesh(point), message_.mutable_surface()->mutable_xyz());
-    append_corners(solid_.mesh, *message_.mutable_surface());
-    for (std::size_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
-      const auto& [a, b, c] = solid_.mesh.triangles[t];
-      const core::Vec3 p = to_mesh(solid_.mesh.points[a]), q = to_mesh(solid_.mesh.points[b]),
-                       r = to_mesh(solid_.mesh.points[c]);
-      const std::uint32_t point = next_points_[t];
+    append_corners(surface_.mesh, *message_.mutable_surface());
+    for (std::size_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = surface_.mesh.triangles[t];
+      const core::Vec3 p = to_mesh(surface_.mesh.points[a]), q = to_mesh(surface_.mesh.points[b]),
+                       r = to_mesh(surface_.mesh.points[c]);
+      const std::uint32_t point = surface_.point[t];
       const std::uint32_t part = point != core::DualComplex::kNone
                                      ? points_[point]
                                      : graph_.part[index.find((1.0 / 3) * (p + (q + r))).number] + 1;
@@ -118,14 +118,15 @@ class Parts {
 
   void add_thickness() {
     std::vector<core::Vec3> inward;
-    inward.reserve(next_points_.size());
-    for (const std::uint32_t point : next_points_)
+    inward.reserve(surface_.point.size());
+    for (const std::uint32_t point : surface_.point)
       inward.push_back(point == core::DualComplex::kNone ? core::Vec3{} : field_.normal(point));
     core::ThicknessOptions options;
     options.near = 0.5 * field_.lattice().spacing / solid_.scale();
     options.threads = field_.threads();
     options.context = field_.context();
-    for (const double thickness : core::surface_thickness(solid_, skeleton_in_solid(), inward, options))
+    for (const double thickness :
+         core::surface_thickness(solid_, surface_.mesh, skeleton_in_solid(), inward, options))
       message_.add_thickness(thickness * solid_.scale());
   }
 
@@ -150,8 +151,8 @@ class Parts {
   const CurveOfField curves_;
   const core::CurveSkeleton curve_;
   const core::CurveGraph graph_;
-  const std::vector<std::uint32_t> points_;       // per sample point, its part
-  const std::vector<std::uint32_t> next_points_;  // per triangle
+  const std::vector<std::uint32_t> points_;  // per sample point, its part
+  const core::PartedSurface surface_;
   v1::SolidParts message_;
 };
 

@@ -47,15 +47,15 @@ class Ways {
 
 }  // namespace
 
-std::vector<double> surface_thickness(const Solid& solid, const Mesh& skeleton, std::span<const Vec3> inward,
-                                      const ThicknessOptions& options) {
+std::vector<double> surface_thickness(const Solid& solid, const Mesh& surface, const Mesh& skeleton,
+                                      std::span<const Vec3> inward, const ThicknessOptions& options) {
   const Ways ways(solid, skeleton, options.near);
-  std::vector<double> result(solid.mesh.triangles.size());
+  std::vector<double> result(surface.triangles.size());
   parallel_ranges(options.threads, result.size(), [&](std::size_t begin, std::size_t end) {
     StopCheck stop(options.context);
     for (std::size_t t = begin; t < end; ++t, stop.did(1000)) {
-      const auto& [a, b, c] = solid.mesh.triangles[t];
-      const auto& points = solid.mesh.points;
+      const auto& [a, b, c] = surface.triangles[t];
+      const auto& points = surface.points;
       result[t] = ways.thickness((1.0 / 3) * (points[a] + (points[b] + points[c])), inward[t]);
     }
   });

@@ -15,14 +15,15 @@ struct ThicknessOptions {
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
-/// How thick the solid is under each triangle: from its centroid along the optimal normal, within the solid, to where
+/// How thick the solid is under each triangle of its surface: from its centroid along the optimal normal, within the solid, to where
 /// that way comes nearest to the skeleton.  Where it leaves the solid, or passes the skeleton at more than half of the
 /// centroid's distance (in hollows the optimal plane is that of another side), that distance.
+/// @param surface of the solid, divided as may be; scaled coordinates.
 /// @param skeleton scaled coordinates; its curves as triangles of two different corners, one vertex as one of one.
-/// @param inward per triangle of the solid: the optimal normal, unit, or 0 where there is none.
+/// @param inward per triangle of the surface: the optimal normal, unit, or 0 where there is none.
 /// @return per triangle, scaled units.
 /// @throws CoreError kCancelled when the context asks to stop.
-std::vector<double> surface_thickness(const Solid& solid, const Mesh& skeleton, std::span<const Vec3> inward,
-                                      const ThicknessOptions& options);
+std::vector<double> surface_thickness(const Solid& solid, const Mesh& surface, const Mesh& skeleton,
+                                      std::span<const Vec3> inward, const ThicknessOptions& options);
 
 }  // namespace affskel::core

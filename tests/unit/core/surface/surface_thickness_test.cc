@@ -32,7 +32,7 @@ std::vector<double> thickness(const Solid& solid, Mesh skeleton, const std::vect
                               ThicknessOptions options = {}) {
   for (Vec3& point : skeleton.points) point = in_solid(solid, point);
   if (options.near == 0) options.near = 0.02 / solid.scale();
-  std::vector<double> result = surface_thickness(solid, skeleton, inward, options);
+  std::vector<double> result = surface_thickness(solid, solid.mesh, skeleton, inward, options);
   for (double& value : result) value *= solid.scale();
   return result;
 }
