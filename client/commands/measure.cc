@@ -61,15 +61,15 @@ void run_measure(Context& context, const MeasureOptions& options) {
 
 void add_measure(CommandLine& line) {
   const auto options = std::make_shared<MeasureOptions>();
-  CLI::App* command =
-      line.add("measure", "The solid and its limbs in numbers, by the curve skeleton",
-               "  affskel-client measure @last\n"
-               "  affskel-client measure @last -o limbs.csv\n"
-               "  affskel-client measure @last --threshold 3        # long limbs alone\n"
-               "A part is a branch of the curve with what of the solid is nearest to it, the\n"
-               "largest first: limbs end freely, links join limbs, loops close.  Lengths are in\n"
-               "the units of the mesh, angles 180 where a part goes straight on from the one it hangs on",
-               [options](Context& context) { run_measure(context, *options); });
+  CLI::App* command = line.add(
+      "measure", "The solid and its limbs in numbers, by the curve skeleton",
+      "  affskel-client measure @last\n"
+      "  affskel-client measure @last -o limbs.csv\n"
+      "  affskel-client measure @last --threshold 3        # long limbs alone\n"
+      "A part is a branch of the curve with what of the solid is nearest to it, the\n"
+      "largest first, about equal ones by their places: limbs end freely, links join limbs, loops close.  Lengths are in\n"
+      "the units of the mesh, angles 180 where a part goes straight on from the one it hangs on",
+      [options](Context& context) { run_measure(context, *options); });
   add_job(command, options->job);
   command
       ->add_option("--threshold", options->threshold,

@@ -14,7 +14,7 @@ Measures measure(Session& session, const std::string& job, double threshold) {
     for (const v1::SolidPart& branch : *branches) measures.curve_length += branch.length();
   const v1::TriangleMesh& curve = measures.solid.curve();
   measures.notices =
-      skeleton_notices(static_cast<std::uint64_t>(curve.segments_size() / 2), curve.quality(), measures.job);
+      skeleton_notices(static_cast<std::uint64_t>(curve.xyz_size() / 3), curve.quality(), measures.job);
   return measures;
 }
 

@@ -105,7 +105,7 @@ std::string measures_text(const Measures& m) {
       key_line("curve_length", base::rounded(m.curve_length, 5)) +
       key_line("pieces", beside(curve.components(), curve.solid_components())) +
       key_line("tunnels", beside(curve.holes(), static_cast<std::uint64_t>(curve.solid_genus()))) +
-      key_line("voids", std::to_string(curve.solid_cavities())) +
+      key_line("voids", beside(curve.lattice().cavities(), curve.solid_cavities())) +
       key_line("parts", std::to_string(solid.parts_size())) +
       "\n part  kind    volume %      volume        area    length  straight    radius     least  greatest  angle"
       "  ends at\n";

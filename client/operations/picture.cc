@@ -18,7 +18,7 @@ namespace affskel::client {
 namespace {
 
 constexpr float kPartOpacity = 0.72f;  // the curve shines through
-constexpr int kMaxRows = 16;           // of the legend
+constexpr int kMaxRows = 24;           // of the legend
 
 // The steps of the lattice, mesh units; a job of a server that told no frame has cubic cells.
 std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
@@ -112,9 +112,12 @@ PaintedBody by_thickness(const v1::SolidParts& solid) {
 }
 
 // @returns what is shown, in words.
-std::string paint(Session& session, const v1::Job& job, PictureColour colour, RenderInput& input) {
+std::string paint(Session& session, const v1::Job& job, PictureColour colour, RenderInput& input,
+                  Notices& notices) {
   v1::ArtifactHeader header;
   const v1::SolidParts solid = fetch_solid_parts(session, job.id(), 0, header);
+  notices = skeleton_notices(static_cast<std::uint64_t>(solid.curve().xyz_size() / 3),
+                             solid.curve().quality(), job);
   if (colour == PictureColour::kPart) {
     input.painted = by_part(solid);
     input.sheet = solid.curve();
@@ -136,7 +139,7 @@ Picture make_picture(Session& session, const v1::Job& job, const PictureOptions&
     if (params.threshold() == 0) params.set_threshold(applied);  // the default, for the title
     shown = shown_text(input, params);
   } else {
-    shown = paint(session, job, options.colour, input);
+    shown = paint(session, job, options.colour, input, notices);
   }
   if (options.level > 0) append(notices, fetch_eroded(session, job, options.level, input));
   input.mesh = fetch_mesh(session, job.id());

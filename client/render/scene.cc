@@ -11,6 +11,7 @@
 #include "client/render/legend.h"
 #include "client/render/panel.h"
 #include "client/render/stroke_text.h"
+#include "core/base/disjoint_sets.h"
 
 namespace affskel::client {
 namespace {
@@ -158,6 +159,24 @@ void draw_sheet(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, 
   panel.draw_curves(mesh.points, segments, colours, curve_width);
 }
 
+// A piece that is no wider than a curve on the picture, such as the centre of a ball, is a spot.
+void draw_spots(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, double width, double scale,
+                Panel& panel) {
+  const core::Mesh mesh = mesh_of(sheet);
+  core::DisjointSets pieces(mesh.points.size());
+  for (const auto& [a, b, c] : mesh.triangles) pieces.unite(a, b), pieces.unite(a, c);
+  for (int i = 0; i < sheet.segments_size(); i += 2) pieces.unite(sheet.segments(i), sheet.segments(i + 1));
+  std::vector<std::optional<Box>> boxes(mesh.points.size());
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    std::optional<Box>& box = boxes[pieces.find(v)];
+    if (!box) box = Box{mesh.points[v], mesh.points[v]};
+    box->add(mesh.points[v]);
+  }
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
+    if (scale * boxes[pieces.find(v)]->longest_side() < width)
+      panel.draw_ball({mesh.points[v], colours[v]}, width);
+}
+
 std::vector<Rgb> colours_of(const RenderInput& input, double highest) {
   if (input.painted) return std::vector<Rgb>(static_cast<std::size_t>(input.sheet.erosion_size()), kInBody);
   std::vector<Rgb> colours;
@@ -198,7 +217,10 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   Panel panel(width, height, shown.view, shown.centre, layout.scale());
   const double highest = highest_of(input);
   draw_points(input, layout, highest, panel);
-  draw_sheet(input.sheet, colours_of(input, highest), std::max(2.0, layout.text / 5), panel);
+  const std::vector<Rgb> colours = colours_of(input, highest);
+  const double curve_width = std::max(2.0, layout.text / 5);
+  draw_sheet(input.sheet, colours, curve_width, panel);
+  draw_spots(input.sheet, colours, curve_width, layout.scale(), panel);
   draw_marks(input, layout, panel);
   draw_solids(input, options, panel);
   const ScreenPoint at = layout.place(which);

@@ -154,6 +154,7 @@ class Client:
             raise BadInputError(f"{given.file or 'the mesh'} is empty")
         share = share_of(spacing)
         if share is not None and given.polygons is not None:
+            require_finite(given.polygons, given.file)
             spacing = share * longest_side(given.polygons)
             share = None
         header = self._header(share or spacing, points, directions, minimum, frame, repair)

@@ -120,6 +120,23 @@ Advice on_significance(const ShockCensus& census, double significance) {
 
 }  // namespace
 
+Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
+                             const BettiNumbers& solid) {
+  if (of_lattice == solid) return {};
+  const auto words = [](const BettiNumbers& betti) {
+    return base::counted(betti.components, "piece") + ", " + base::counted(betti.holes, "tunnel") + " and " +
+           base::counted(betti.cavities, "void");
+  };
+  // Half the spacing shows features half as large.
+  constexpr std::uint64_t kMore = 8, kRound = 10000;
+  const std::string points = std::to_string((kMore * lattice.points + kRound - 1) / kRound * kRound);
+  return {
+      "it has the " + words(of_lattice) + " of the sample points, the solid has " + words(solid) +
+          ": they are too few for something as thin as what differs. Submit with a smaller spacing than " +
+          base::rounded(lattice.spacing, 3) + ", or with " + points + " points.",
+      {{"points", points}}};
+}
+
 Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
                              const std::vector<double>& divergence, ShockOperator shock_operator,
                              double threshold) {

@@ -9,6 +9,7 @@
 #include "core/mesh/mesh.h"
 #include "core/quality/advice.h"
 #include "core/shocks/shock_operator.h"
+#include "core/solid/betti_numbers.h"
 
 namespace affskel::core {
 
@@ -38,5 +39,11 @@ Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, dou
 ///   asked for.
 Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const Segment> segments,
                            std::span<const double> barrier, double least);
+
+/// That a skeleton of the lattice is not the solid's, where their pieces, tunnels or voids differ, and how many sample
+/// points to try; else nothing.
+/// @param of_lattice of the complex of its sample points, but for what is left out.
+Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
+                             const BettiNumbers& solid);
 
 }  // namespace affskel::core

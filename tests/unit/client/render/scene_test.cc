@@ -61,6 +61,22 @@ TEST(RenderScene, ASheetIsColouredByItsErosion) {
   EXPECT_NEAR(yellow_pixels(), 2 * with, 0.03 * with);
 }
 
+TEST(RenderScene, AVertexAloneIsASpot) {
+  RenderInput input;
+  input.mesh = core::make_box(100, 100, 100);
+  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
+  RenderOptions options;
+  options.cameras = {parse_camera("top")};
+  const Image without = render_scene(input, options);
+  for (int k = 0; k < 3; ++k) input.sheet.add_xyz(50);
+  input.sheet.add_erosion(5);
+  const Image with = render_scene(input, options);
+  int changed = 0;
+  for (int y = 0; y < with.height(); ++y)
+    for (int x = 0; x < with.width(); ++x) changed += with.at(x, y) == without.at(x, y) ? 0 : 1;
+  EXPECT_GT(changed, 10);
+}
+
 // The largest rectangle of one colour, as a share of the picture.
 double largest_empty_share(const Image& image, Rgb background) {
   std::vector<int> above(std::size_t(image.width()) + 1, 0);  // empty pixels above and at a place of the row

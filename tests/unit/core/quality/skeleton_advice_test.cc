@@ -139,5 +139,16 @@ TEST(LowBarriersAdvice, NamesOneThatKeepsATriangle) {
   EXPECT_TRUE(says(curves, "no segment of the curves")) << curves.text;
 }
 
+TEST(CoarseLatticeAdvice, NamesWhatDiffersAndMorePoints) {
+  NormalBlock block({10, 10, 10}, 0.5);
+  EXPECT_TRUE(coarse_lattice_advice(block.lattice, {1, 2, 1}, {1, 2, 1}).text.empty());
+  const Advice advice = coarse_lattice_advice(block.lattice, {1, 3, 0}, {2, 1, 1});
+  EXPECT_TRUE(says(advice, "1 piece, 3 tunnels and 0 voids")) << advice.text;
+  EXPECT_TRUE(says(advice, "2 pieces, 1 tunnel and 1 void")) << advice.text;
+  EXPECT_TRUE(says(advice, "smaller spacing than 0.5, or with 10000 points")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "points", "10000"));
+  EXPECT_TRUE(is_plain(advice));
+}
+
 }  // namespace
 }  // namespace affskel::core

@@ -146,5 +146,25 @@ TEST(DeriveCurve, NamesThePlaceWhereTheSheetRoundACavityIsOpened) {
   EXPECT_LT(quality.openings(0).size(), 110);
 }
 
+// A cube with a cavity between the lattice's lines.
+TEST(DeriveRidge, SaysThatTheLatticeMissesACavity) {
+  core::Mesh mesh = core::make_box(400, 400, 400);
+  const core::Mesh cavity = core::make_box(4, 4, 4);
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  for (const core::Vec3& p : cavity.points) mesh.points.push_back(p + core::Vec3{183, 213, 207});
+  for (const auto& [a, b, c] : cavity.triangles) mesh.triangles.push_back({a + first, c + first, b + first});
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(40);
+  const PreparedJob prepared(core::write_off(mesh), params);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SKELETON);
+  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const auto points = parsed<v1::SkeletonPoints>(derive(lease, prepared, finished_field(prepared)));
+  EXPECT_EQ(points.quality().solid_cavities(), 1U);
+  EXPECT_EQ(points.quality().cavities(), 0U);
+  EXPECT_NE(points.quality().advice().find("the solid has 1 piece, 0 tunnels and 1 void"), std::string::npos)
+      << points.quality().advice();
+  ASSERT_EQ(points.quality().to_try_size(), 1);
+}
+
 }  // namespace
 }  // namespace affskel::worker
