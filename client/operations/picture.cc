@@ -89,6 +89,14 @@ PaintedBody by_part(const v1::SolidParts& solid) {
   body.opacity = kPartOpacity;
   const std::vector<Rgb> colours = colours_of(solid);
   for (const std::uint32_t part : solid.triangle_part()) body.colours.push_back(colours[part - 1]);
+  for (int p = 0; p < solid.parts_size(); ++p) {
+    const auto& along = solid.parts(p).vertices();
+    const int middle = static_cast<int>(along[along.size() / 2]);
+    const auto& xyz = solid.curve().xyz();
+    body.labels.push_back({{xyz[3 * middle], xyz[3 * middle + 1], xyz[3 * middle + 2]},
+                           std::to_string(p + 1),
+                           colours[static_cast<std::size_t>(p)]});
+  }
   body.title = "Parts, % of the volume";
   const int shown = std::min(solid.parts_size(), kMaxRows);
   for (int p = 0; p < shown; ++p) {

@@ -50,6 +50,11 @@ Panel::Panel(int width, int height, const View& view, const Vec3& centre, double
   samples_.assign(std::size_t(columns_) * std::size_t(rows_), Sample{});
 }
 
+PanelPlace Panel::place(const Vec3& point) const {
+  const Projected at = project(point);
+  return {at.x / kSamples, at.y / kSamples, at.depth / kSamples};
+}
+
 Panel::Projected Panel::project(const Vec3& point) const {
   const Vec3 p = point - centre_;
   return {columns_ / 2.0 + scale_ * core::dot(view_.right, p), rows_ / 2.0 - scale_ * core::dot(view_.up, p),

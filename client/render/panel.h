@@ -35,6 +35,11 @@ inline constexpr Glass kGlassOnDark{{0.42f, 0.50f, 0.62f}, {0.86f, 0.91f, 0.97f}
 /// An eroded solid inside it.
 inline constexpr Glass kErodedGlass{{0.62f, 0.33f, 0.10f}, {0.98f, 0.66f, 0.36f}, 0.28f, 0.50f};
 
+/// Where a point is seen, pixels from the upper left corner of a panel; a greater depth is nearer to the viewer.
+struct PanelPlace {
+  double x = 0, y = 0, depth = 0;
+};
+
 /// Draws one view: opaque balls, sheets and curves, depth-buffered, inside translucent surfaces.  Works on a
 /// grid of 2 x 2 samples per pixel.  Surfaces are composed without sorting: each of their layers takes a
 /// share of the light, and the layers in front of a ball and those behind it are kept apart.
@@ -44,6 +49,8 @@ class Panel {
 
   /// @param scale pixels per mesh unit; @param centre is shown in the middle of the picture.
   Panel(int width, int height, const View& view, const core::Vec3& centre, double scale);
+
+  PanelPlace place(const core::Vec3& point) const;
 
   /// All that is opaque first, then the surfaces.
   void draw_ball(const Ball& ball, double radius);

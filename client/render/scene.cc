@@ -8,6 +8,7 @@
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/render/arrangement.h"
+#include "client/render/labels.h"
 #include "client/render/legend.h"
 #include "client/render/panel.h"
 #include "client/render/stroke_text.h"
@@ -227,6 +228,9 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   paste(image, panel.resolve(options.background), static_cast<int>(at.x),
         static_cast<int>(at.y + layout.label));
   if (options.bare) return;
+  if (input.painted)
+    draw_labels(*input.painted, panel, {std::floor(at.x), std::floor(at.y + layout.label)}, 0.8 * layout.text,
+                image);
   // A name that is longer than the body is wide reaches into the gaps beside it, or is written smaller.
   const double room = width + layout.margin, needed = text_width(shown.name, layout.text);
   const double size = layout.text * std::min(1.0, room / needed);

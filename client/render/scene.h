@@ -10,6 +10,7 @@
 #include "client/render/camera.h"
 #include "client/render/image.h"
 #include "client/render/legend.h"
+#include "client/render/painted_body.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::client {
@@ -20,16 +21,6 @@ struct RenderOptions {
   bool mesh = true;                               ///< draw the body
   bool bare = false;                              ///< without title, names and scales, for small pictures
   Rgb background = kWhite;
-};
-
-/// The body, its front opaque or nearly so, in colours of its own.
-struct PaintedBody {
-  core::Mesh mesh;
-  std::vector<Rgb> colours;  ///< per triangle
-  float opacity = 1;         ///< what lies behind it shines through the rest
-  ColourScale scale;         ///< of these colours, or
-  std::string title;         ///< of rows
-  std::vector<ColourRow> rows;
 };
 
 /// Edges of the body that stand out.

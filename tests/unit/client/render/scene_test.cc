@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "client/base/error.h"
 #include "core/shapes/body.h"
@@ -75,6 +77,44 @@ TEST(RenderScene, AVertexAloneIsASpot) {
   for (int y = 0; y < with.height(); ++y)
     for (int x = 0; x < with.width(); ++x) changed += with.at(x, y) == without.at(x, y) ? 0 : 1;
   EXPECT_GT(changed, 10);
+}
+
+// Two halves of a bar, one above the other: from the front both are named, from above the one that hides the other.
+TEST(RenderScene, NamesThePartsThatAreSeen) {
+  RenderInput input;
+  input.mesh = core::make_box(100, 100, 50);
+  const auto half = input.mesh.points.size();
+  const core::Mesh upper = input.mesh;
+  for (const core::Vec3& p : upper.points) input.mesh.points.push_back(p + core::Vec3{0, 0, 50});
+  for (const auto& [a, b, c] : upper.triangles) {
+    const auto by = static_cast<std::uint32_t>(half);
+    input.mesh.triangles.push_back({a + by, b + by, c + by});
+  }
+  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
+  const Rgb low{0.8f, 0.8f, 0.4f}, high{0.5f, 0.8f, 0.9f};
+  input.painted.emplace();
+  input.painted->mesh = input.mesh;
+  for (std::size_t t = 0; t < input.mesh.triangles.size(); ++t)
+    input.painted->colours.push_back(2 * t < input.mesh.triangles.size() ? low : high);
+  const Label lower_label{{50, 50, 25}, "8", low}, upper_label{{50, 50, 75}, "8", high};
+  const auto dark_pixels = [&](const char* camera, const std::vector<Label>& labels) {
+    RenderOptions options;
+    options.cameras = {parse_camera(camera)};
+    input.painted->labels = labels;
+    const Image image = render_scene(input, options);
+    int dark = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) dark += image.at(x, y).g < 0.3f ? 1 : 0;
+    return dark;
+  };
+  for (const char* camera : {"front", "top"}) {
+    const int none = dark_pixels(camera, {});
+    const int one = dark_pixels(camera, {upper_label}) - none;
+    EXPECT_GT(one, 10) << camera;
+    const bool front = camera == std::string("front");
+    EXPECT_EQ(dark_pixels(camera, {lower_label}) - none > 10, front) << camera;
+    EXPECT_EQ(dark_pixels(camera, {upper_label, upper_label}) - none, one) << "one has room";
+  }
 }
 
 // The largest rectangle of one colour, as a share of the picture.
