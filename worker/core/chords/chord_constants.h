@@ -28,7 +28,7 @@ struct ChordConstants {
   double strong_turn = 0.45;  ///< least turn of a strong shock; 1/2 is a right angle between its normals
   double min_erosion =
       0.002;              ///< its least E, as a share of the volume of the sample points' cells in its part
-  double near_cost = 40;  ///< pieces that a path through weaker shocks joins at this cost are weighed as one
+  double near_cost = 20;  ///< pieces that a path through weaker shocks joins at this cost are weighed as one
   /// Where no turn is as wide as strong_turn, a strong one has this share of the largest turn instead, but at
   /// least min_strong_turn.
   double strong_share = 0.8;
