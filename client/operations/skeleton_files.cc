@@ -95,7 +95,10 @@ Fetched fetch_complex(Session& session, const FetchRequest& request, const Chose
   fetched.notices = lost_curves(surface.shape, output.format(), request.destination.name());
   fetched.segments = holds_curves(output.format()) ? surface.shape.segments.size() : 0;
   if (quality != nullptr) fetched.quality = *quality;
-  if (fetched.items + *fetched.segments == 0) fetched.notices.push_back(empty_surface(quality));
+  if (fetched.items + *fetched.segments == 0)
+    fetched.notices.push_back(empty_surface(quality));
+  else if (quality != nullptr)
+    append(fetched.notices, skeleton_notices(fetched.items + *fetched.segments, *quality, header.job()));
   return fetched;
 }
 
@@ -180,7 +183,7 @@ Fetched fetch_curve(Session& session, const FetchRequest& request) {
                {"curve skeleton", "operator", skeleton_params_text(params), &curve.quality});
   Fetched fetched{request.destination, "curve", "segment", curve.shape.segments.size(), header.job()};
   fetched.quality = curve.quality;
-  if (fetched.items == 0) fetched.notices.push_back(empty_surface(&curve.quality));
+  fetched.notices = skeleton_notices(curve.shape.mesh().points.size(), curve.quality, header.job());
   if (output.format() == FileFormat::kSwc && curve.quality.holes() > 0)
     fetched.notices.push_back(warning(
         "CUT_LOOPS",

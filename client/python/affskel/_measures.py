@@ -33,7 +33,7 @@ class Measures(Saveable):
         branches: of each part the indices of its vertices in `curve`, from start to end.
         links: the same of lines between parts that lie within joints, whole: no part of the solid is theirs.
         curve: the curve skeleton, see Surface: its attribute "part" is each vertex's.
-        surface: the solid's, as it was computed; no attributes.
+        surface: the solid's, its triangles cut where parts meet; no attributes.
         triangle_part, thickness: (m,) per triangle of it: its part, and the way along its optimal normal to the skeleton
             of "ridge".
         point_part: (R,) per sample point, in the order of `Job.field`.

@@ -183,9 +183,8 @@ class SolidBuilder {
 
   void note_split(std::uint32_t added) {
     if (added == 0) return;
-    repaired("split-vertices",
-             std::to_string(added) +
-                 " vertices where surfaces merely touch were doubled, so that each has its own");
+    repaired("split-vertices", base::counted(added, "vertex", "vertices") +
+                                   " where surfaces merely touch doubled, so that each has its own");
   }
 
   void normalise() {
