@@ -14,11 +14,8 @@ const std::vector<double>& curve_column(const ShapeFile& shape, const char* name
 }
 
 core::CurveGraph curve_graph(const ShapeFile& shape) {
-  core::CurveGraph graph = core::curve_graph(shape.mesh().points, shape.segments,
-                                             curve_column(shape, "radius"), curve_column(shape, "share"));
-  std::erase_if(graph.branches,
-                [](const core::CurveBranch& branch) { return branch.kind == core::BranchKind::kPoint; });
-  return graph;
+  return core::curve_graph(shape.mesh().points, shape.segments, curve_column(shape, "radius"),
+                           curve_column(shape, "share"));
 }
 
 }  // namespace affskel::client

@@ -7,7 +7,7 @@
 
 namespace affskel::client {
 
-/// A curve skeleton as a graph of lines: its branches are the solid's parts, but for vertices without a line.
+/// A curve skeleton as a graph: its branches are the solid's parts.  A point, of one vertex, is no branch of a file.
 /// @param shape with segments and the columns radius, distance and share.
 /// @throws ClientError kInternal when it lacks one.
 core::CurveGraph curve_graph(const ShapeFile& shape);

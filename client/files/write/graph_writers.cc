@@ -75,11 +75,12 @@ void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& co
     node["degree"] = graph.degree[n];
     file["nodes"].push_back(std::move(node));
   }
-  for (const core::CurveBranch& branch : graph.branches) {
+  for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+    const core::CurveBranch& branch = graph.branches[b];
+    if (branch.kind == core::BranchKind::kPoint) continue;
     ordered_json line = ordered_json::array();
     for (const std::uint32_t v : branch.vertices) line.push_back(vertex_of(shape, v));
-    const ordered_json part =
-        branch.share > 0 ? ordered_json(file["branches"].size() + 1) : ordered_json(nullptr);
+    const ordered_json part = branch.share > 0 ? ordered_json(b + 1) : ordered_json(nullptr);
     file["branches"].push_back({{"part", part},
                                 {"nodes", {branch.from, branch.to}},
                                 {"length", branch.length},
@@ -119,6 +120,7 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
   }
   for (std::size_t b = 0; b < graph.branches.size(); ++b) {
     const core::CurveBranch& branch = graph.branches[b];
+    if (branch.kind == core::BranchKind::kPoint) continue;
     write("    <edge id=\"b" + std::to_string(b) + "\" source=\"n" + std::to_string(branch.from) +
           "\" target=\"n" + std::to_string(branch.to) + "\">\n");
     xml.data("edge", "length", branch.length);

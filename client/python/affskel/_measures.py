@@ -25,7 +25,8 @@ class Measures(Saveable):
     are in the order of their places.  Volumes and areas add up to the solid's.
 
     Attributes:
-        kinds: of each part: "limb" (one end is free), "line" (both), "link" (none), "loop" (it closes), "point".
+        kinds: of each part: "limb" (one end is free), "line" (both), "link" (none), "loop" (it closes), "point"
+            (a ball, or a body that limbs hang on).
         numbers: (p,) each: length and straight_length of the branch, volume, volume_share, surface_area, mean_radius,
             least_radius, greatest_radius, angle (degrees, to the first other branch at `starts`: 180 goes straight on;
             NaN without one).

@@ -1,7 +1,6 @@
 #include "core/curve/centre_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include "core/curve/joint_balls.h"
 #include "core/curve/limb_forks.h"
 #include "core/curve/limb_sections.h"
+#include "core/curve/parabola_fit.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
@@ -32,7 +32,6 @@ constexpr int kRest = 5;           // rounds more, at most, until joints have se
 constexpr double kSettled = 0.05;  // spacings: of all joints, less than that in a round is no move
 constexpr double kDirection = 1;   // radii: over so long a stretch on both sides a line has its direction
 constexpr double kFitted = 5;      // vertices that tell of a parabola
-constexpr double kJoint = 1.22;    // joint_balls(): nearer to a joint a section has a part of the other limbs
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
 constexpr double kRound = 0.75, kFlat = 0.55;
@@ -47,26 +46,6 @@ constexpr double kHold = 0.02;
 constexpr double kParallel = 0.08, kOblique = 0.15;
 
 constexpr double kFarForks = 2;  // sizes of a joint: how limbs part farther from there says nothing of it
-
-// Least squares.
-class ParabolaFit {
- public:
-  void add(double t, const Vec3& place) {
-    const Vec3 powers{1, t, t * t};
-    for (int k = 0; k < 3; ++k) {
-      sums_[static_cast<std::size_t>(k)] = sums_[static_cast<std::size_t>(k)] + powers[k] * powers;
-      places_[static_cast<std::size_t>(k)] = places_[static_cast<std::size_t>(k)] + powers[k] * place;
-    }
-  }
-  Vec3 at_0() const {
-    const Vec3 row = inverse_transposed(sums_)[0];  // the sums are symmetric
-    return row.x * places_[0] + row.y * places_[1] + row.z * places_[2];
-  }
-
- private:
-  Matrix3 sums_{};
-  std::array<Vec3, 3> places_{};
-};
 
 class CentreLines {
  public:
@@ -147,7 +126,7 @@ class CentreLines {
     if (!is_joint(at(0))) return 0;
     const JointBalls& joint = joints_[at(0)];
     std::size_t count = 1;
-    while (count < line.size() && joint.hold(places_[at(count)], kJoint)) ++count;
+    while (count < line.size() && joint.hold(places_[at(count)], JointBalls::kNear)) ++count;
     return count;
   }
 

@@ -33,7 +33,7 @@ class GraphOfCurve {
     for (const CurveBranch& branch : graph_.branches)
       for (const std::uint32_t v : branch.vertices) used[v] = 1;
     for (std::uint32_t v = 0; v < used.size(); ++v)
-      if (!used[v]) add({v});
+      if (!used[v] || is_body(v)) add({v});
   }
 
   CurveGraph run() {
@@ -44,9 +44,8 @@ class GraphOfCurve {
     const auto count = static_cast<std::uint32_t>(graph_.branches.size());
     at_vertex_ = {places_.size(), [&](const auto& put) {
                     for (std::uint32_t b = 0; b < count; ++b)
-                      for (const std::uint32_t v :
-                           {graph_.branches[b].vertices.front(), graph_.branches[b].vertices.back()})
-                        put(v, b);
+                      if (const auto& line = graph_.branches[b].vertices; line.size() > 1)
+                        for (const std::uint32_t v : {line.front(), line.back()}) put(v, b);
                   }};
     for (std::uint32_t b = 0; b < count; ++b) turn_link(b);
     for (std::uint32_t b = 0; b < count; ++b) measure_angle(b);
@@ -64,6 +63,9 @@ class GraphOfCurve {
     graph_.branches.push_back(std::move(branch));
   }
 
+  // See thick_joints(): any other joint has nothing.
+  bool is_body(std::uint32_t v) const { return ends_[v] > 2 && share_[v] > 0; }
+
   bool is_within(const CurveBranch& branch, std::size_t n) const {
     return n > 0 && n + 1 < branch.vertices.size();
   }
@@ -80,7 +82,8 @@ class GraphOfCurve {
     for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
       if (inner) return;
       std::uint32_t& owner = graph_.part[v];
-      if (owner == kNoBranch || within[b] > within[owner]) owner = b;
+      if (owner == kNoBranch || graph_.branches[b].vertices.size() == 1 || within[b] > within[owner])
+        owner = b;
     });
     const std::vector<std::uint32_t> owner = graph_.part;
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)

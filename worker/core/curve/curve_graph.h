@@ -38,14 +38,15 @@ struct CurveGraph {
   /// the order of their mean places, along the axis in which these are farthest apart: the two arms of a body do not
   /// change places with noise.
   std::vector<CurveBranch> branches;
-  /// Per vertex: its branch; where some meet, the heaviest, which also has what of the others has no share from there on: a
+  /// Per vertex: its branch; where some meet, the heaviest, or the body that the place is, which also has what of the others has no share from there on: a
   /// limb begins where it leaves the trunk, see LimbTubes.
   std::vector<std::uint32_t> part;
 
   static constexpr double kAboutEqual = 0.95;
 };
 
-/// A point is a branch of its own, of one vertex.
+/// A point is a branch of its own, of one vertex, and so is a body that branches hang on: a place where they meet that has
+/// a share (see thick_joints()).
 /// @param places, radius, share per vertex: see limb_radii(), CurveSkeleton::share; segments as for polylines().
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
                        std::span<const double> radius, std::span<const double> share);

@@ -67,6 +67,27 @@ void add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, doub
   }
 }
 
+// Of their tips, frame coordinates.
+std::vector<Vec3> places_of(const Lattice& lattice, const std::vector<LimbTip>& limbs) {
+  std::vector<DualComplex::Cell> tips;
+  for (const LimbTip& limb : limbs) tips.push_back(limb.vertex);
+  std::vector<Vec3> places;
+  for (const CellPlace& cell : cells_of_vertices(lattice, tips))
+    places.push_back(lattice.spacing * middle_of(cell));
+  return places;
+}
+
+// An arm whose fingers the lattice joins to loops is as long as without these: so is the limb whose tip is nearest.
+void raise_reaches(const Lattice& lattice, const std::vector<LimbTip>& opened, std::vector<LimbTip>& limbs) {
+  if (limbs.empty()) return;
+  const std::vector<Vec3> tips = places_of(lattice, limbs), all = places_of(lattice, opened);
+  const PointIndex index(tips);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    double& reach = limbs[index.find(all[n]).number].reach;
+    reach = std::max(reach, opened[n].reach);
+  }
+}
+
 LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
                        double least_reach) {
   LimbEnds ends{std::vector<char>(ridge.vertices.size(), 0), std::vector<Vec3>(ridge.vertices.size()),
@@ -75,12 +96,11 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
   const PointIndex index(places);
   std::vector<LimbTip> limbs = basis.limbs;
   limbs.insert(limbs.end(), ridge.filled.limbs.begin(), ridge.filled.limbs.end());
-  std::vector<DualComplex::Cell> tips;
-  for (const LimbTip& limb : limbs) tips.push_back(limb.vertex);
-  const std::vector<CellPlace> cells = cells_of_vertices(lattice, tips);
+  raise_reaches(lattice, basis.opened_limbs, limbs);
+  const std::vector<Vec3> tips = places_of(lattice, limbs);
   for (std::size_t n = 0; n < limbs.size(); ++n) {
     const LimbTip& limb = limbs[n];
-    const Vec3 tip = lattice.spacing * middle_of(cells[n]);
+    const Vec3 tip = tips[n];
     const PointIndex::Found end = index.find(tip);
     if (end.distance >= (kNearTip + limb.width) * lattice.spacing) continue;
     ends.has_tip[end.number] = 1;

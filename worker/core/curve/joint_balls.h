@@ -16,8 +16,16 @@ struct JointBalls {
   std::vector<Vec3> centres = {};
   std::vector<double> radii = {};
 
+  /// Times: nearer to a joint a section of a limb has a part of the other limbs.
+  static constexpr double kNear = 1.22;
+
   /// Whether a place lies within so many radii of one of them, and of the joint, by the largest one's.
   bool hold(const Vec3& at, double times) const;
+
+  /// How far a place is outside all of them, so many times as large; within less than 0.
+  double outside(const Vec3& at, double times) const;
+
+  void add(const JointBalls& other);
 };
 
 /// @param lines see polylines(), by numbers in places.

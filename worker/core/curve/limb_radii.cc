@@ -33,15 +33,18 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
   std::vector<std::uint32_t> ends(vertices, 0);  // of lines
   for (const auto& line : lines)
     for (const std::uint32_t v : {line.front(), line.back()}) ++ends[v];
+  const auto is_body = [&](std::uint32_t v) { return ends[v] > 2 && input.share[v] > input.slice[v]; };
   std::vector<double> radius(vertices, 0);
   for (const auto& line : lines) {
     const std::size_t count = line.size();
-    const auto is_joint = [&](std::size_t n) { return (n == 0 || n + 1 == count) && ends[line[n]] > 2; };
+    const auto is_joint = [&](std::size_t n) {
+      return (n == 0 || n + 1 == count) && ends[line[n]] > 2 && !is_body(line[n]);
+    };
     std::vector<char> whole(count);
     bool is_hidden = true;  // all of it lies in others
     for (std::size_t n = 0; n < count; ++n) {
       const double share = input.share[line[n]];
-      whole[n] = !is_joint(n) && share > 0 && share >= kWhole * input.slice[line[n]];
+      whole[n] = !is_joint(n) && !is_body(line[n]) && share > 0 && share >= kWhole * input.slice[line[n]];
       is_hidden &= !whole[n];
     }
     if (is_hidden) std::fill(whole.begin(), whole.end(), 1);
@@ -69,6 +72,8 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
       radius[line[n]] += radius_at(nearest_whole(whole, n)) / weight;
     }
   }
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    if (is_body(v)) radius[v] = std::cbrt(0.75 / std::numbers::pi * input.volume * input.share[v]);
   return radius;
 }
 

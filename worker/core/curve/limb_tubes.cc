@@ -8,6 +8,7 @@
 #include "core/base/basis.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
+#include "core/curve/thick_joints.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
@@ -72,6 +73,9 @@ LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segm
     add_rings(ellipse_at, limb);
     go_on_into_joints(limb);
   }
+  std::vector<double> sizes;
+  for (const Limb& limb : limbs_) sizes.push_back(limb.size);
+  thick_ = thick_joints(places, lines, sizes, joints_);
   for (Limb& limb : limbs_)
     for (std::size_t end = 0; end < 2; ++end) compare(limb, end);
   find_hidden();
@@ -113,7 +117,8 @@ std::size_t LimbTubes::in_joint(const Limb& limb, std::size_t end) const {
   const std::uint32_t joint = limb.end(end);
   if (!is_joint(joint)) return 0;
   std::size_t count = 1;
-  while (count + 1 < limb.vertices.size() && joints_[joint].hold(places_[limb.at(end, count)], kJoint))
+  while (count + 1 < limb.vertices.size() &&
+         joints_[joint].hold(places_[limb.at(end, count)], JointBalls::kNear))
     ++count;
   return count;
 }
@@ -228,7 +233,8 @@ void LimbTubes::find_hidden() {
   for (const std::uint32_t n : order) {
     Limb& limb = limbs_[n];
     limb.is_hidden = std::all_of(limb.vertices.begin(), limb.vertices.end(), [&](std::uint32_t v) {
-      return any_beside(limb, [&](const Limb& other) { return holds(other, places_[v]); });
+      return outside_thick(limb.end(0), places_[v]) < 0 || outside_thick(limb.end(1), places_[v]) < 0 ||
+             any_beside(limb, [&](const Limb& other) { return holds(other, places_[v]); });
     });
   }
 }
@@ -292,10 +298,19 @@ std::uint32_t LimbTubes::off_joint(std::uint32_t vertex, const Vec3& at) const {
   return nearest;
 }
 
+double LimbTubes::outside_thick(std::uint32_t vertex, const Vec3& at) const {
+  if (thick_[vertex] == kNoThickJoint) return std::numeric_limits<double>::infinity();
+  return joints_[thick_[vertex]].outside(at, kRoundest);
+}
+
 std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const {
+  if (outside_thick(nearest, at) < 0) return thick_[nearest];
   if (is_joint(nearest)) nearest = off_joint(nearest, at);
   if (limb_of_[nearest] == kNone) return nearest;
   const Limb& limb = limbs_[limb_of_[nearest]];
+  const std::array<double, 2> outside{outside_thick(limb.end(0), at), outside_thick(limb.end(1), at)};
+  const std::size_t nearer = outside[1] < outside[0] ? 1 : 0;
+  if (outside[nearer] < 0) return thick_[limb.end(nearer)];
   if (!limb.is_hidden) {
     for (const auto& thicker : limb.thicker)
       for (const std::uint32_t number : thicker) {
@@ -308,6 +323,10 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
       limb.is_hidden ? std::numeric_limits<double>::infinity() : depth_below(limb, rank_[nearest], at);
   if (least < 0) return nearest;
   std::uint32_t owner = nearest;
+  if (outside[nearer] < least) {
+    least = outside[nearer];
+    owner = thick_[limb.end(nearer)];
+  }
   // A handle has no more than what is nearest to it: noise makes some within a body's hips.
   any_beside(limb, [&](const Limb& other) {
     const bool is_handle = other.end(0) == other.end(1) && other.size <= limb.size;

@@ -18,11 +18,12 @@ namespace affskel::core {
 
 /// Parts a solid where its limbs meet. Each limb is a tube about its line, whose sections are ellipses like the limb's
 /// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
-/// that it has where it leaves the joint (kJoint of its sizes away, and no larger than it mostly is), and ends in half an
+/// that it has where it leaves the joint (JointBalls::kNear of its sizes away, and no larger than it mostly is), and ends in half an
 /// ellipsoid, no farther than where the limbs beyond part from each other. What lies there in the tube of a limb that is
 /// thicker, all in all, belongs to that; what lies in its own tube to that; else it belongs to the limb whose tube it lies
 /// deepest in, or is nearest to. So an arm begins where it leaves the trunk, from the armpit to the top of the shoulder,
-/// equal limbs share their joint evenly, and a joint itself has nothing. A link or loop whose line lies in the tubes of the
+/// equal limbs share their joint evenly, and a joint itself has nothing, unless it is thicker than all of them (see
+/// thick_joints()): then it is the thickest, and its tube is its balls. A link or loop whose line lies in the tubes of the
 /// others that it meets, whole, has nothing either. Keeps references to its arguments.
 class LimbTubes {
  public:
@@ -41,7 +42,6 @@ class LimbTubes {
   /// @param nearest the vertex of the lines that it is nearest to.
   std::uint32_t vertex_of(const Vec3& at, std::uint32_t nearest) const;
 
-  static constexpr double kJoint = 1.22;  ///< joint_balls(); see centre_lines()
   static constexpr double kRoundest = 1.1;
 
  private:
@@ -90,11 +90,13 @@ class LimbTubes {
   std::uint32_t own_vertex(const Limb& limb, std::size_t n) const;
   bool holds(const Limb& limb, const Vec3& at) const;
   std::uint32_t off_joint(std::uint32_t vertex, const Vec3& at) const;
+  double outside_thick(std::uint32_t vertex, const Vec3& at) const;
 
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
   std::span<const std::vector<LimbFork>> forks_;  // per vertex
   std::vector<JointBalls> joints_;                // per vertex
+  std::vector<std::uint32_t> thick_;              // per vertex: see thick_joints()
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube

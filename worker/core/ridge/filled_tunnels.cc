@@ -208,6 +208,7 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
     const Cell edge = tunnels.weakest_edge(cycles[n], left, anchored);
     if (edge == Tunnels::kNoCell) continue;
     left.erase(edge);
+    filled.edges.push_back(edge);
     complex.for_each_face(edge, [&](Cell vertex) { ends.push_back(vertex); });
     ++filled.number;
     for (std::size_t other = n + 1; other < cycles.size(); ++other)

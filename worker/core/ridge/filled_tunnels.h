@@ -21,6 +21,7 @@ struct FillOptions {
 
 struct FilledTunnels {
   std::uint32_t number = 0;
+  std::vector<DualComplex::Cell> edges;  ///< that are taken out
   /// What hung loose and stays.  limb_tips() sees none of them: while the solid is thinned they are a loop.
   std::vector<LimbTip> limbs;
 };

@@ -169,6 +169,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
                    .radius = {},
                    .thickness = {},
                    .limbs = {},
+                   .opened_limbs = {},
                    .loops = {},
                    .derivatives = {}};
   // One after the other: each takes about as much memory as all that is kept, and beside each other they save a fifth of
@@ -183,6 +184,11 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
     LimbTips limbs = tips({});
     if (const auto noisy = noisy_solid(solid, lattice, basis))
       limbs = tips(bored_cells(*noisy, limbs.left, {}, context).cells);
+    else if (CellSet left = limbs.left; basis.topology.holes > 0)
+      if (const auto cut =
+              fill_tunnels(solid, lattice, basis.complex, {}, basis.radius, left, {.context = context}).edges;
+          !cut.empty())
+        basis.opened_limbs = tips(cut).tips;
     basis.limbs = std::move(limbs.tips);
     basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
   }

@@ -31,8 +31,16 @@ class Lines {
                        share.empty() ? even() : share);
   }
 
+  // Of joints nothing.
   std::vector<double> even() const {
-    return std::vector<double>(places.size(), 1 / static_cast<double>(places.size()));
+    std::vector<int> lines(places.size(), 0);
+    for (const Segment& segment : segments)
+      for (const std::uint32_t v : segment) ++lines[v];
+    std::vector<double> result;
+    for (const int count : lines) result.push_back(count > 2 ? 0 : 1);
+    const double sum = std::accumulate(result.begin(), result.end(), 0.0);
+    for (double& one : result) one /= sum;
+    return result;
   }
 
   std::vector<Vec3> places;
@@ -112,6 +120,26 @@ TEST(CurveGraph, ALimbBeginsWhereItHasAShare) {
     for (std::size_t v = 0; v < lines.places.size(); ++v)
       if (&graph.branches[graph.part[v]] == &branch) sum += lines.share[v];
     EXPECT_NEAR(branch.share, sum, 1e-12);
+  }
+}
+
+// A joint with a share is a body, thicker than its limbs.
+TEST(CurveGraph, ABodyThatLimbsHangOnIsAPoint) {
+  Lines lines;
+  const std::uint32_t middle = lines.begin({0, 0, 0});
+  for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}}) lines.go(middle, way, 4);
+  lines.share = {0.4, 0, 0.2, 0, 0, 0, 0, 0.3, 0, 0, 0.1, 0, 0};
+  for (const bool turned : {false, true}) {
+    if (turned) std::reverse(lines.segments.begin(), lines.segments.end());
+    const CurveGraph graph = lines.graph();
+    ASSERT_EQ(graph.branches.size(), 4U);
+    EXPECT_EQ(graph.branches[0].kind, BranchKind::kPoint);
+    EXPECT_EQ(graph.branches[0].share, 0.4);
+    EXPECT_EQ(graph.nodes[graph.branches[0].from], middle);
+    EXPECT_EQ(graph.branches[1].share, 0.3);
+    EXPECT_NEAR(graph.branches[1].angle, 180, 1e-9) << "to the next limb, not to the point";
+    EXPECT_EQ(graph.degree[graph.branches[0].from], 3U);
+    EXPECT_EQ(graph.part[1], 0U) << "where a limb has no share yet";
   }
 }
 

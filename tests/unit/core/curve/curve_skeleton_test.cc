@@ -130,14 +130,21 @@ TEST(CurveSkeleton, HasNoLoopRoundAWebThinnerThanTheSpacing) {
   EXPECT_EQ(betti(ring.at()), (BettiNumbers{1, 0, 0}));
 }
 
-// A flat ball with a web 0.04 thick between two fingers, which are joined at their tips.
-TEST(CurveSkeleton, KeepsFingersThatTheLatticeJoinsAtTheirTips) {
-  Mesh mitten = make_sphere(1, 5120);
-  for (Vec3& p : mitten.points) {
+// A flat ball with a web 0.04 thick between two fingers, which are joined at their tips; `arm` long on the other side.
+Mesh mitten(double arm) {
+  Mesh mesh = make_sphere(1, 5120);
+  for (Vec3& p : mesh.points) {
     const bool is_web = p.x > -0.3 && std::abs(p.y) < 0.25;
-    p = {2 * p.x, p.y, p.z * (!is_web ? 0.4 : p.x < 0.6 ? 0.02 : 0.25)};
+    p = {(p.x < -0.3 ? arm * (p.x + 0.3) - 0.6 : 2 * p.x), p.y,
+         p.z * (!is_web     ? 0.4
+                : p.x < 0.6 ? 0.02
+                            : 0.25)};
   }
-  const Curved solid(mitten, 0.097, "triangles");
+  return mesh;
+}
+
+TEST(CurveSkeleton, KeepsFingersThatTheLatticeJoinsAtTheirTips) {
+  const Curved solid(mitten(2), 0.097, "triangles");
   ASSERT_EQ(solid.ridge().filled.number, 1U);
   const CurveSkeleton curve = solid.at();
   EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
@@ -149,6 +156,21 @@ TEST(CurveSkeleton, KeepsFingersThatTheLatticeJoinsAtTheirTips) {
   }
   EXPECT_GT(left, 0.8);
   EXPECT_GT(right, 0.8);
+}
+
+// The loop of the fingers ends no line that the solid is thinned to.
+TEST(CurveSkeleton, AnArmIsAsLongWhetherTheLatticeJoinsItsFingers) {
+  const Curved solid(mitten(12), 0.097, "triangles");
+  ASSERT_EQ(solid.ridge().filled.number, 1U);
+  const CurveSkeleton curve = solid.at(4);
+  EXPECT_EQ(curve.ends, 2U);
+  double low = 0, high = 0;
+  for (const SheetVertex& vertex : curve.vertices) {
+    low = std::min(low, solid.place(vertex).x);
+    high = std::max(high, solid.place(vertex).x);
+  }
+  EXPECT_LT(low, -6);
+  EXPECT_GT(high, 0.5);
 }
 
 TEST(CurveSkeleton, HasThePiecesAndTunnelsOfTheRidge) {

@@ -139,7 +139,7 @@ TEST(LimbTubes, ATrunkIsAsWideInAJointAsBelow) {
 // The link is the thickest of all, and has no vertex that is no joint.
 TEST(LimbTubes, ALinkOfTwoJointsHasNothing) {
   Tubed lines;
-  const std::uint32_t one = lines.add({0, 0, 0}, 3), other = lines.add({0.1, 0, 0}, 3);
+  const std::uint32_t one = lines.add({0, 0, 0}, 0.6), other = lines.add({0.1, 0, 0}, 0.6);
   lines.segments.push_back({one, other});
   for (const double side : {-1., 1.}) {
     lines.go(one, {-0.1, 0.1 * side, 0}, 60, 0.5);
@@ -148,9 +148,22 @@ TEST(LimbTubes, ALinkOfTwoJointsHasNothing) {
   for (const Vec3& at : lines.places) EXPECT_GT(norm(lines.owner(at) - Vec3{0.05, 0, 0}), 0.06);
 }
 
+// Four legs: each begins where it leaves the body.
+TEST(LimbTubes, AJointThickerThanItsLimbsHasItsBalls) {
+  Tubed lines;
+  const std::uint32_t body = lines.add({0, 0, 0}, 2);
+  const Vec3 step[] = {{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1, 0}};
+  for (const Vec3& way : step) lines.go(body, way, 80, 0.5);
+  for (const Vec3& way : step) {
+    EXPECT_EQ(lines.owner(21 * way), lines.places[body]);
+    EXPECT_LT(norm(lines.owner(23 * way) - 23 * way), 1e-9);
+  }
+  EXPECT_EQ(lines.owner({1.7, 1.5, 0}), lines.places[body]) << "nearer to the body's ball than to a leg";
+}
+
 TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {
   Tubed lines;
-  const std::uint32_t joint = lines.add({0, 0, 0}, 1.5);
+  const std::uint32_t joint = lines.add({0, 0, 0}, 1.3);
   const double thick[] = {1, 1.05, 1, 1.05};
   const Vec3 step[] = {{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1, 0}};
   for (std::size_t n = 0; n < 4; ++n) lines.go(joint, step[n], 80, thick[n]);

@@ -23,7 +23,7 @@ ShapeFile fork_and_loop() {
   shape.columns = {{"E", false, {1, 2, 9, 3, 4, 5, 6, 7, 8}},
                    {"radius", false, {1, 2, 3, 1, 1, 1, 1, 1, 1}},
                    {"distance", false, std::vector<double>(9, 0.5)},
-                   {"share", false, {0.1, 0.1, 0.3, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05}}};
+                   {"share", false, {0.1, 0.4, 0, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05}}};
   return shape;
 }
 
@@ -39,13 +39,14 @@ TEST(CurveGraph, HasLinesAsBranchesAndLonePlacesAsNodes) {
   const core::CurveGraph graph = curve_graph(fork_and_loop());
   EXPECT_EQ(graph.nodes, (std::vector<std::uint32_t>{0, 2, 3, 4, 5, 8}));
   EXPECT_EQ(graph.degree, (std::vector<std::uint32_t>{1, 3, 1, 1, 2, 0}));
-  ASSERT_EQ(graph.branches.size(), 4U);
+  ASSERT_EQ(graph.branches.size(), 5U);
+  EXPECT_EQ(graph.branches[4].kind, core::BranchKind::kPoint);
   const core::CurveBranch& first = graph.branches[0];
   EXPECT_EQ(first.vertices, (std::vector<std::uint32_t>{2, 1, 0}));
   EXPECT_EQ(first.length, 2);
   EXPECT_EQ(first.mean_radius, 2);  // 1.5 and 2.5
   EXPECT_NEAR(first.share, 0.5, 1e-12);
-  double sum = 0.05;  // of the lone place
+  double sum = 0;
   for (const core::CurveBranch& branch : graph.branches) sum += branch.share;
   EXPECT_NEAR(sum, 1, 1e-12);
 }
@@ -66,6 +67,17 @@ TEST(CurveGraph, IsJson) {
   EXPECT_EQ(file["branches"][0]["part"], 1);
   EXPECT_EQ(file["branches"][0]["nodes"], nlohmann::json({1, 0}));
   EXPECT_EQ(file["branches"][0]["vertices"].size(), 3U);
+}
+
+// A body that limbs hang on is a part, and no line: the others keep their numbers.
+TEST(CurveGraph, OfABodyWithLimbsHasTheirNumbersAsParts) {
+  ShapeFile shape = fork_and_loop();
+  shape.columns.back().values = {0.1, 0.1, 0.5, 0.1, 0.05, 0.05, 0.05, 0.02, 0.03};
+  std::string text;
+  write_curve(FileFormat::kJson, shape, {}, [&](std::string_view bytes) { text += bytes; });
+  const auto file = nlohmann::json::parse(text);
+  ASSERT_EQ(file["branches"].size(), 4U);
+  EXPECT_EQ(file["branches"][0]["part"], 2);
 }
 
 TEST(CurveGraph, IsGraphMl) {
