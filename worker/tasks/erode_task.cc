@@ -126,10 +126,9 @@ class Progress : public core::ExecutionContext {
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
-// While more than so many points improve in an interval, reports come after two, and after three at most: the first
-// directions improve all points, and most of that is outdone a second later.
-constexpr std::uint32_t kMostEachInterval = 500'000;
-constexpr std::uint32_t kMostIntervals = 3;
+// A report of more records waits for a second interval: the first directions improve all points, and most of that is
+// outdone a second later.
+constexpr std::uint32_t kManyRecords = 500'000;
 
 // Of a report that is made at once: what the server holds before it merges.
 constexpr std::uint32_t kRecordsPerReport = 4 * wire::kRecordsPerMessage;
@@ -209,7 +208,7 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
 
   std::chrono::milliseconds interval(lease.report_interval_ms());
   auto next_report = std::chrono::steady_clock::now() + interval;
-  std::uint32_t intervals = 1;  // since the last report
+  bool put_off = false;
   for (;;) {
     const Progress::Event event = progress.wait_for_event(next_report, stop);
     bool ended = event == Progress::Event::kEnd;
@@ -220,9 +219,8 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
     } else if (event == Progress::Event::kNearlyDone) {
       nearly_done();
       continue;
-    } else if (!ended && intervals < kMostIntervals &&
-               erosion.field().changes() > intervals * kMostEachInterval) {
-      ++intervals;
+    } else if (!ended && !put_off && erosion.field().changes() > kManyRecords) {
+      put_off = true;
       next_report += interval;
       continue;
     }
@@ -245,7 +243,7 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
     if (response.report_interval_ms() != 0)
       interval = std::chrono::milliseconds(response.report_interval_ms());
     next_report = std::chrono::steady_clock::now() + interval;
-    intervals = 1;
+    put_off = false;
   }
 }
 
