@@ -87,7 +87,8 @@ std::int64_t log_part_of(std::int64_t point) {
 }
 
 std::int64_t chunk_row(Database& db, std::int64_t erosion_id, std::int64_t index) {
-  return db.integer("SELECT id FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index).value();
+  return db.integer("SELECT id FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index)
+      .value();
 }
 
 }  // namespace
