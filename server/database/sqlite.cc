@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -299,10 +301,27 @@ bool Database::is_at_rest() const {
   return true;
 }
 
+/// In whole steps.  SQLite's own way, SQLITE_FCNTL_SIZE_HINT, is a call of the system for every block of the disk.
+bool Database::grow_to(std::int64_t bytes) {
+  static const std::array<char, 65536> kZeros{};  // SQLite writes less than 128 KiB at a time
+  sqlite3_file* file = nullptr;
+  sqlite3_int64 size = 0;
+  if (sqlite3_file_control(handle_, "main", SQLITE_FCNTL_FILE_POINTER, &file) != SQLITE_OK ||
+      file->pMethods->xFileSize(file, &size) != SQLITE_OK) {
+    return false;
+  }
+  const sqlite3_int64 end = (bytes + kGrowthBytes - 1) / kGrowthBytes * kGrowthBytes;
+  for (sqlite3_int64 step = 0; size < end; size += step) {
+    step = std::min<sqlite3_int64>(kZeros.size(), end - size);
+    if (file->pMethods->xWrite(file, kZeros.data(), static_cast<int>(step), size) != SQLITE_OK) return false;
+  }
+  return true;
+}
+
 void Database::claim_pages() {
-  sqlite3_int64 bytes =
+  const sqlite3_int64 bytes =
       integer("PRAGMA page_count").value_or(0) * integer("PRAGMA page_size").value_or(kPageBytes);
-  if (sqlite3_file_control(handle_, "main", SQLITE_FCNTL_SIZE_HINT, &bytes) != SQLITE_OK) {
+  if (!grow_to(bytes)) {
     // SQLite does not say why.
     if (const int why = probe_disk(file_); why == EROFS || why == EIO) {
       throw SqliteError(SQLITE_IOERR_WRITE,

@@ -206,6 +206,7 @@ class Database {
   void set_up_reading();
   void prepare_rollback();
   void set_up_writing();
+  bool grow_to(std::int64_t bytes);
   void close() noexcept;
 
   std::string file_;

@@ -61,7 +61,7 @@ void ReportCall::begin(const v1::ReportErosionHeader& header) {
     if (lease.kind == v1::TASK_KIND_REFINE) {
       refined_.emplace(lease.bounds);
     } else {
-      batch_.emplace(lease.bounds.points, lease.directions, lease.bounds.volume);
+      batch_.emplace(lease.bounds.points, lease.directions, lease.bounds.volume, header.records());
     }
     return false;
   });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "database/errors.h"
 #include "store/field_rows.h"
@@ -21,7 +20,7 @@ constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
 constexpr std::size_t kStretchPoints = 256;
 
 // Logged records take at most so many times what their part of the field does: merging them rewrites all of it.
-constexpr std::int64_t kMostLogged = 2;
+constexpr std::int64_t kMostLogged = 3;
 
 // Of the volume, by which E may exceed it: E has 36 significant bits.
 constexpr double kRoundedUp = 1 + 0x1p-30;
@@ -53,45 +52,13 @@ bool merge_one(char* to, const PointRecord& record) {
 
 using Records = std::vector<PointRecord>::const_iterator;
 
-/// Merges [begin, end), all of chunk `index`; marks the stretches that changed.
-std::vector<bool> merge_into(std::string& chunk, std::int64_t index, Records begin, Records end) {
-  const std::size_t count = chunk.size() / kRecordBytes;
-  std::vector<bool> changed((count + kStretchPoints - 1) / kStretchPoints);
-  for (Records record = begin; record != end; ++record) {
-    const std::size_t at = record->point - static_cast<std::size_t>(index * kChunkPoints);
-    if (merge_one(chunk.data() + at * kRecordBytes, *record)) changed[at / kStretchPoints] = true;
-  }
-  return changed;
+bool is_of_earlier_chunk(const PointRecord& a, const PointRecord& b) {
+  return a.point / kChunkPoints < b.point / kChunkPoints;
 }
-
-/// Whether there was any.
-bool write_changed(BlobHandle& blob, const std::string& chunk, const std::vector<bool>& changed) {
-  bool written = false;
-  const std::size_t stretch_bytes = kStretchPoints * kRecordBytes;
-  for (std::size_t first = 0; first < changed.size(); ++first) {
-    if (!changed[first]) continue;
-    std::size_t last = first;
-    while (last + 1 < changed.size() && changed[last + 1]) ++last;
-    const std::size_t begin = first * stretch_bytes;
-    const std::size_t end = std::min(chunk.size(), (last + 1) * stretch_bytes);
-    blob.write(chunk.data() + begin, static_cast<int>(end - begin), static_cast<int>(begin));
-    written = true;
-    first = last;
-  }
-  return written;
-}
-
-struct ByChunk {
-  bool operator()(const PointRecord& a, const PointRecord& b) const {
-    return a.point / kChunkPoints < b.point / kChunkPoints;
-  }
-  bool operator()(const PointRecord& a, std::int64_t index) const { return a.point / kChunkPoints < index; }
-  bool operator()(std::int64_t index, const PointRecord& a) const { return index < a.point / kChunkPoints; }
-};
 
 // Counting sort: single reports arrive sorted, so this runs only when several come together.
 void sort_by_chunk(std::vector<PointRecord>& records) {
-  if (std::is_sorted(records.begin(), records.end(), ByChunk{})) return;
+  if (std::is_sorted(records.begin(), records.end(), is_of_earlier_chunk)) return;
   std::vector<std::size_t> place;  // of the next record of a chunk, once summed up
   for (const PointRecord& record : records) {
     const auto chunk = static_cast<std::size_t>(record.point / kChunkPoints);
@@ -111,7 +78,7 @@ void sort_by_chunk(std::vector<PointRecord>& records) {
 /// reports.
 bool is_dense(Records begin, Records end) {
   std::ptrdiff_t chunks = 1;
-  for (Records i = begin + 1; i < end; ++i) chunks += ByChunk{}(i[-1], *i) ? 1 : 0;
+  for (Records i = begin + 1; i < end; ++i) chunks += is_of_earlier_chunk(i[-1], *i) ? 1 : 0;
   return 2 * (end - begin) >= chunks * kChunkPoints;
 }
 
@@ -119,8 +86,9 @@ std::int64_t log_part_of(std::int64_t point) {
   return point / kLogPartPoints;
 }
 
-std::optional<std::int64_t> chunk_row(Database& db, std::int64_t erosion_id, std::int64_t index) {
-  return db.integer("SELECT id FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index);
+std::int64_t chunk_row(Database& db, std::int64_t erosion_id, std::int64_t index) {
+  return db.integer("SELECT id FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index)
+      .value();
 }
 
 }  // namespace
@@ -138,22 +106,31 @@ void RecordBatch::append(const v1::FieldRecords& records) {
   if (cleared_ + static_cast<std::int64_t>(records_.size()) + count > kMaxRecordsPerPoint * points_) {
     refuse_field("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
   }
+  const auto record_at = [&](int i) {
+    return PointRecord{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
+  };
+  for (int i = 0; i < count; ++i) require_possible(record_at(i));
+  const std::size_t before = records_.size();
+  records_.resize(before + static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    PointRecord record{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
-    if (record.point >= points_)
-      refuse_field("point " + std::to_string(record.point) + " of " + std::to_string(points_));
-    if (record.direction >= directions_) {
-      refuse_field("direction " + std::to_string(record.direction) + " of " + std::to_string(directions_));
-    }
-    if (!(record.erosion > 0 && record.erosion <= most_)) {
-      refuse_field("E of point " + std::to_string(record.point) + " is " + std::to_string(record.erosion) +
-                   ": not above 0 and at most the volume of the solid");
-    }
-    if (!std::isfinite(record.area) || record.area < 0) {
-      refuse_field("the area of point " + std::to_string(record.point) + " is negative or not finite");
-    }
+    PointRecord& record = records_[before + static_cast<std::size_t>(i)];
+    record = record_at(i);
     record.area += 0.0;  // one zero only: equal values must be equal bytes, whatever the order of merging
-    records_.push_back(record);
+  }
+}
+
+void RecordBatch::require_possible(const PointRecord& record) const {
+  if (record.point >= points_)
+    refuse_field("point " + std::to_string(record.point) + " of " + std::to_string(points_));
+  if (record.direction >= directions_) {
+    refuse_field("direction " + std::to_string(record.direction) + " of " + std::to_string(directions_));
+  }
+  if (!(record.erosion > 0 && record.erosion <= most_)) {
+    refuse_field("E of point " + std::to_string(record.point) + " is " + std::to_string(record.erosion) +
+                 ": not above 0 and at most the volume of the solid");
+  }
+  if (!std::isfinite(record.area) || record.area < 0) {
+    refuse_field("the area of point " + std::to_string(record.point) + " is negative or not finite");
   }
 }
 
@@ -166,51 +143,64 @@ void RecordBatch::clear() {
   records_ = {};  // many reports may wait for their next part
 }
 
-namespace {
+FieldPart::FieldPart(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t part)
+    : db_(db), erosion_id_(erosion_id), points_(points), part_(part) {}
 
-/// Merges [begin, last), sorted by chunk.
-void merge_into_chunks(Database& db, std::int64_t erosion_id, std::int64_t points, Records begin,
-                       Records last) {
-  std::optional<BlobHandle> blob;
-  std::string chunk;
-  while (begin != last) {
-    const std::int64_t index = begin->point / kChunkPoints;
-    const auto end =
-        std::find_if(begin, last, [&](const PointRecord& r) { return r.point / kChunkPoints != index; });
-    if (const std::optional<std::int64_t> row = chunk_row(db, erosion_id, index)) {
-      if (blob) {
-        blob->reopen(*row);
-      } else {
-        blob.emplace(db, "field_chunks", "data", *row);
-      }
-      chunk.resize(static_cast<std::size_t>(blob->size()));
-      blob->read(chunk.data(), blob->size(), 0);
-      require_sound_chunk(db, erosion_id, index, chunk);
-      if (write_changed(*blob, chunk, merge_into(chunk, index, begin, end))) {
-        sign_chunk(db, erosion_id, index, chunk);
-      }
-    } else {
-      // An INSERT would make the open handle stale.
-      blob.reset();
-      chunk = empty_chunk(field_chunk_points(points, index));
-      merge_into(chunk, index, begin, end);
-      insert_chunk(db, erosion_id, index, chunk);
+FieldPart::Chunk& FieldPart::chunk(std::int64_t index) {
+  Chunk& chunk = chunks_[static_cast<std::size_t>(index % kLogPartChunks)];
+  if (!chunk.bytes.empty()) return chunk;
+  const std::size_t count = field_chunk_points(points_, index);
+  chunk.bytes = load_chunk(db_, erosion_id_, index);
+  chunk.is_stored = !chunk.bytes.empty();
+  if (!chunk.is_stored) chunk.bytes = empty_chunk(count);
+  chunk.changed.assign((count + kStretchPoints - 1) / kStretchPoints, false);
+  return chunk;
+}
+
+void FieldPart::merge(const PointRecord& record) {
+  Chunk& to = chunk(record.point / kChunkPoints);
+  const std::size_t at = record.point % kChunkPoints;
+  if (merge_one(to.bytes.data() + at * kRecordBytes, record)) to.changed[at / kStretchPoints] = true;
+}
+
+void FieldPart::merge_log() {
+  load_log(db_, erosion_id_, part_, [&](std::string_view bytes) {
+    for (; !bytes.empty(); bytes.remove_prefix(wire::kPointRecordBytes)) {
+      const PointRecord record = wire::decode_point_record(bytes.data());
+      if (log_part_of(record.point) == part_) merge(record);
     }
-    begin = end;
+  });
+}
+
+void FieldPart::store() {
+  for (std::int64_t i = 0; i < kLogPartChunks; ++i) {
+    const Chunk& chunk = chunks_[static_cast<std::size_t>(i)];
+    if (std::find(chunk.changed.begin(), chunk.changed.end(), true) == chunk.changed.end()) continue;
+    const std::int64_t index = part_ * kLogPartChunks + i;
+    if (chunk.is_stored) {
+      write_changed(index, chunk);
+    } else {
+      insert_chunk(db_, erosion_id_, index, chunk.bytes);
+    }
   }
 }
 
-// What is logged of a part of the field.
-std::vector<PointRecord> read_log(Database& db, std::int64_t erosion_id, std::int64_t part) {
-  std::vector<PointRecord> log;
-  load_log(db, erosion_id, part, [&](std::string_view bytes) {
-    for (; !bytes.empty(); bytes.remove_prefix(wire::kPointRecordBytes)) {
-      const PointRecord record = wire::decode_point_record(bytes.data());
-      if (log_part_of(record.point) == part) log.push_back(record);
-    }
-  });
-  return log;
+void FieldPart::write_changed(std::int64_t index, const Chunk& chunk) {
+  BlobHandle blob(db_, "field_chunks", "data", chunk_row(db_, erosion_id_, index));
+  const std::size_t stretch_bytes = kStretchPoints * kRecordBytes;
+  for (std::size_t first = 0; first < chunk.changed.size(); ++first) {
+    if (!chunk.changed[first]) continue;
+    std::size_t last = first;
+    while (last + 1 < chunk.changed.size() && chunk.changed[last + 1]) ++last;
+    const std::size_t begin = first * stretch_bytes;
+    const std::size_t end = std::min(chunk.bytes.size(), (last + 1) * stretch_bytes);
+    blob.write(chunk.bytes.data() + begin, static_cast<int>(end - begin), static_cast<int>(begin));
+    first = last;
+  }
+  sign_chunk(db_, erosion_id_, index, chunk.bytes);
 }
+
+namespace {
 
 std::string log_bytes(Records begin, Records end) {
   std::string bytes(static_cast<std::size_t>(end - begin) * wire::kPointRecordBytes, '\0');
@@ -223,10 +213,10 @@ std::string log_bytes(Records begin, Records end) {
 /// until the field is settled.
 void merge_part(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t part, Records begin,
                 Records end) {
-  std::vector<PointRecord> all = read_log(db, erosion_id, part);
-  all.insert(all.end(), begin, end);
-  sort_by_chunk(all);
-  merge_into_chunks(db, erosion_id, points, all.begin(), all.end());
+  FieldPart chunks(db, erosion_id, points, part);
+  chunks.merge_log();
+  std::for_each(begin, end, [&](const PointRecord& record) { chunks.merge(record); });
+  chunks.store();
   db.run("DELETE FROM field_log WHERE erosion_id = ? AND part = ?", erosion_id, part);
 }
 
@@ -241,7 +231,9 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
     const std::int64_t most = kMostLogged * static_cast<std::int64_t>(kRecordBytes) *
                               std::min(kLogPartPoints, points - part * kLogPartPoints);
     if (is_dense(begin, end)) {
-      merge_into_chunks(db, erosion_id, points, begin, end);
+      FieldPart chunks(db, erosion_id, points, part);
+      std::for_each(begin, end, [&](const PointRecord& record) { chunks.merge(record); });
+      chunks.store();
     } else if (const std::string bytes = log_bytes(begin, end);
                logged_bytes(db, erosion_id, part) + static_cast<std::int64_t>(bytes.size()) <= most) {
       insert_log(db, erosion_id, part, bytes);
@@ -293,16 +285,11 @@ FieldView::FieldView(Database& db, std::int64_t erosion_id, std::int64_t points)
     : db_(db), erosion_id_(erosion_id), points_(points) {}
 
 std::string FieldView::chunk(std::int64_t index) {
-  if (const std::int64_t part = log_part_of(index * kChunkPoints); part != part_) {
-    log_ = read_log(db_, erosion_id_, part);
-    sort_by_chunk(log_);
-    part_ = part;
-  }
-  std::string bytes = load_chunk(db_, erosion_id_, index);
-  if (bytes.empty()) bytes = empty_chunk(field_chunk_points(points_, index));
-  const auto [begin, end] = std::equal_range(log_.begin(), log_.end(), index, ByChunk{});
-  merge_into(bytes, index, begin, end);
-  return bytes;
+  const std::int64_t part = index / kLogPartChunks;
+  if (!part_ || part_->number() != part || index < next_)
+    part_.emplace(db_, erosion_id_, points_, part).merge_log();
+  next_ = index + 1;
+  return part_->take_bytes(index);
 }
 
 }  // namespace affskel::server

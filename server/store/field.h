@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
@@ -15,8 +18,9 @@ namespace affskel::server {
 /// Points per stored chunk of a field.
 inline constexpr std::int64_t kChunkPoints = 4096;
 
-/// Points of so many chunks have a part of the log: what of it a reader has in memory at a time is at most 5 MiB.
-inline constexpr std::int64_t kLogPartPoints = 32 * kChunkPoints;
+/// So many chunks have a part of the log: they are what a reader has in memory of it, 2.5 MiB.
+inline constexpr std::int64_t kLogPartChunks = 32;
+inline constexpr std::int64_t kLogPartPoints = kLogPartChunks * kChunkPoints;
 
 /// Records of a report that are held before they are merged: 3 MiB.  A report may bring any number of them.
 inline constexpr std::size_t kMaxRecordsHeld = std::size_t{1} << 17;
@@ -46,6 +50,8 @@ class RecordBatch {
   const std::vector<wire::PointRecord>& records() const { return records_; }
 
  private:
+  void require_possible(const wire::PointRecord& record) const;
+
   std::int64_t points_;
   std::int64_t directions_;
   double most_;  // E
@@ -73,6 +79,40 @@ std::int64_t field_chunk_count(std::int64_t points);
 /// Points of one of its chunks.
 std::size_t field_chunk_points(std::int64_t points, std::int64_t index);
 
+/// The chunks of a part of the field's log, loaded when they are asked for or a record of theirs is merged.
+class FieldPart {
+ public:
+  FieldPart(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t part);
+
+  std::int64_t number() const { return part_; }
+
+  /// In memory; of this part.
+  void merge(const wire::PointRecord& record);
+  void merge_log();
+
+  /// Bytes of chunk `index` of the field, empty records where no report has been, which are not kept.
+  std::string take_bytes(std::int64_t index) { return std::move(chunk(index).bytes); }
+
+  /// Writes what was changed.
+  void store();
+
+ private:
+  struct Chunk {
+    std::string bytes;  // empty: not loaded yet
+    bool is_stored = false;
+    std::vector<bool> changed;  // by stretches
+  };
+
+  Chunk& chunk(std::int64_t index);
+  void write_changed(std::int64_t index, const Chunk& chunk);
+
+  Database& db_;
+  std::int64_t erosion_id_;
+  std::int64_t points_;
+  std::int64_t part_;
+  std::array<Chunk, kLogPartChunks> chunks_;
+};
+
 /// A field as it is in the database's transaction, the log included.
 class FieldView {
  public:
@@ -88,8 +128,8 @@ class FieldView {
   Database& db_;
   std::int64_t erosion_id_;
   std::int64_t points_;
-  std::int64_t part_ = -1;              // of the log
-  std::vector<wire::PointRecord> log_;  // by chunk
+  std::optional<FieldPart> part_;
+  std::int64_t next_ = 0;  // chunk that was not asked for yet
 };
 
 }  // namespace affskel::server

@@ -30,15 +30,11 @@ bool chunk_is_sound(Database& db, std::int64_t erosion_id, std::int64_t index, s
   return sum && *sum == checksum(erosion_id, index, bytes);
 }
 
-void require_sound_chunk(Database& db, std::int64_t erosion_id, std::int64_t index, std::string_view bytes) {
-  if (!chunk_is_sound(db, erosion_id, index, bytes)) throw damaged(erosion_id, chunk_name(index));
-}
-
 std::string load_chunk(Database& db, std::int64_t erosion_id, std::int64_t index) {
   Statement row =
       db.query("SELECT data FROM field_chunks WHERE erosion_id = ? AND idx = ?", erosion_id, index);
   if (row.step()) {
-    require_sound_chunk(db, erosion_id, index, row.blob(0));
+    if (!chunk_is_sound(db, erosion_id, index, row.blob(0))) throw damaged(erosion_id, chunk_name(index));
     return std::string(row.blob(0));
   }
   if (db.integer("SELECT 1 FROM field_sums WHERE erosion_id = ? AND idx = ?", erosion_id, index)) {

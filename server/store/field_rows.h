@@ -15,9 +15,6 @@ namespace affskel::server {
 /// Whether a chunk's bytes are those that were stored.
 bool chunk_is_sound(Database& db, std::int64_t erosion_id, std::int64_t index, std::string_view bytes);
 
-/// @throws StoreError kDamaged unless they are.
-void require_sound_chunk(Database& db, std::int64_t erosion_id, std::int64_t index, std::string_view bytes);
-
 /// Bytes of chunk `index`; empty when no report has touched it.
 std::string load_chunk(Database& db, std::int64_t erosion_id, std::int64_t index);
 

@@ -1,5 +1,7 @@
 #include "database/sqlite.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -85,6 +87,22 @@ TEST_F(DatabaseTest, TransactionRollsBackUnlessCommitted) {
     transaction.commit();
   }
   EXPECT_EQ(db.integer("SELECT count(*) FROM t"), 1);
+}
+
+// Room on the disk, not only a length, for what waits in the log; in steps of a mebibyte.
+TEST_F(DatabaseTest, ClaimsThePagesOfATransactionBeforeItIsCommitted) {
+  Database db(file(), Database::Mode::kReadWrite);
+  db.execute("CREATE TABLE t (x BLOB) STRICT");
+  Transaction transaction(db);
+  db.run("INSERT INTO t VALUES (zeroblob(5000000))");
+  db.claim_pages();
+  struct stat status {};
+  ASSERT_EQ(stat(file().c_str(), &status), 0);
+  EXPECT_EQ(status.st_size, 5 << 20);
+  EXPECT_GE(status.st_blocks * 512, status.st_size);
+  transaction.commit();
+  EXPECT_TRUE(db.checkpoint());
+  EXPECT_EQ(db.integer("SELECT length(x) FROM t"), 5000000);
 }
 
 TEST_F(DatabaseTest, ErrorsCarryExtendedCodes) {
