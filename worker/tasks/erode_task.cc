@@ -126,10 +126,6 @@ class Progress : public core::ExecutionContext {
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
 };
 
-// A report of more records waits for a second interval: the first directions improve all points, and most of that is
-// outdone a second later.
-constexpr std::uint32_t kManyRecords = 500'000;
-
 // Of a report that is made at once: what the server holds before it merges.
 constexpr std::uint32_t kRecordsPerReport = 4 * wire::kRecordsPerMessage;
 
@@ -208,7 +204,6 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
 
   std::chrono::milliseconds interval(lease.report_interval_ms());
   auto next_report = std::chrono::steady_clock::now() + interval;
-  bool put_off = false;
   for (;;) {
     const Progress::Event event = progress.wait_for_event(next_report, stop);
     bool ended = event == Progress::Event::kEnd;
@@ -218,10 +213,6 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
       ended = true;
     } else if (event == Progress::Event::kNearlyDone) {
       nearly_done();
-      continue;
-    } else if (!ended && !put_off && erosion.field().changes() > kManyRecords) {
-      put_off = true;
-      next_report += interval;
       continue;
     }
     if (ended) computing.join();
@@ -243,7 +234,6 @@ ErodeEnd erode(const v1::Lease& lease, PreparedJob& job, core::Erosion& erosion,
     if (response.report_interval_ms() != 0)
       interval = std::chrono::milliseconds(response.report_interval_ms());
     next_report = std::chrono::steady_clock::now() + interval;
-    put_off = false;
   }
 }
 

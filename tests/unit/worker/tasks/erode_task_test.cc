@@ -122,32 +122,6 @@ TEST_F(ErodeTest, ObeysACancellation) {
   EXPECT_EQ(server_.reports().size(), 1U);
 }
 
-// Of so many points the first directions improve all, and most of that is outdone before the second interval is over.
-TEST_F(ErodeTest, PutsOffAReportOfVeryManyPointsToTheSecondInterval) {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::milliseconds kInterval(200);
-  v1::ErosionParams params = sample_params();
-  params.mutable_sampling()->set_target_points(600000);
-  params.set_directions("sphere:32");
-  PreparedJob job(sample_mesh(), params);
-  ServerLink to_server = link();
-  core::Erosion& erosion = job.erosion(1, {});
-  v1::Lease lease = erode_lease(job, "t", 0, job.directions().size());
-  for (int i = 0; i < 2000; ++i) *lease.add_positions() = lease.positions(0);
-  lease.set_report_interval_ms(static_cast<std::uint32_t>(kInterval.count()));
-  Clock::time_point first;
-  server_.on_report([&](const v1::ReportErosionHeader&) {
-    first = Clock::now();
-    v1::ReportResponse response;
-    response.set_cancelled(true);
-    return response;
-  });
-  const Clock::time_point begun = Clock::now();
-  EXPECT_EQ(erode(lease, job, erosion, to_server, stop_.get_token(), last_, [] {}), ErodeEnd::kCancelled);
-  EXPECT_GE(first - begun, 2 * kInterval);
-  EXPECT_FALSE(server_.reports().front().header.block_done());
-}
-
 // The first report of a large field goes in parts, of which only the last calls anything done; what the answers to the
 // others tell is not reported any more.
 TEST_F(ErodeTest, MakesALargeReportInParts) {
