@@ -56,10 +56,10 @@ class PointsOfLattice {
   std::vector<std::uint32_t> rank_;  // per place of the band
 };
 
-class Cuts {
+class CutTriangles {
  public:
-  Cuts(const Solid& solid, const Lattice& lattice, std::span<const std::uint32_t> part,
-       ExecutionContext* context)
+  CutTriangles(const Solid& solid, const Lattice& lattice, std::span<const std::uint32_t> part,
+               ExecutionContext* context)
       : points_(lattice),
         indices_(lattice),
         spacing_(lattice.spacing / solid.scale()),
@@ -208,7 +208,7 @@ class Cuts {
 
 PartedSurface parted_surface(const Solid& solid, const Lattice& lattice, std::span<const std::uint32_t> part,
                              ExecutionContext* context) {
-  return Cuts(solid, lattice, part, context).run();
+  return CutTriangles(solid, lattice, part, context).run();
 }
 
 }  // namespace affskel::core
