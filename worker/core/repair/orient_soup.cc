@@ -11,6 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/mesh/touching_edges.h"
+#include "core/mesh/unused_points.h"
+#include "core/repair/near_points.h"
 #include "core/repair/surface_mesh.h"
 #include "core/repair/t_junctions.h"
 
@@ -79,8 +81,10 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
   if (soup.triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "no triangle with three different corners");
-  const std::size_t points = soup.points.size();
   Mesh split = core_mesh(soup);
+  oriented.joined_points = join_near_points(split.points, split.triangles);
+  drop_unused_points(split);
+  const std::size_t points = split.points.size();
   oriented.junctions = split_t_junctions(split.points, split.triangles);
   separate_touching_edges(split);
   soup = soup_of(split);

@@ -10,6 +10,8 @@ namespace affskel::core {
 struct OrientedSoup {
   Mesh mesh;                        ///< edge- and vertex-manifold, possibly with boundary
   std::uint64_t welded_points = 0;  ///< equal points that became one
+  std::uint64_t joined_points =
+      0;  ///< so near another one that rounding has parted them, see join_near_points
   std::uint64_t unused_points = 0;  ///< that no triangle names
   std::uint64_t degenerate = 0;     ///< triangles that name a point twice, or have no area as a line has none
   std::uint64_t repeated = 0;       ///< triangles beside another of the same corners

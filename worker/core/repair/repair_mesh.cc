@@ -64,6 +64,9 @@ class Mending {
     OrientedSoup soup = orient_soup(mesh);
     tell("welded-points", soup.welded_points,
          base::counted(soup.welded_points, "point") + " at the place of another joined to it");
+    tell("joined-points", soup.joined_points,
+         base::counted(soup.joined_points, "point") +
+             " within a millionth of the size of another joined to it");
     tell("unused-points", soup.unused_points,
          base::counted(soup.unused_points, "point") + " that no triangle names left out");
     tell("degenerate-triangles", soup.degenerate,

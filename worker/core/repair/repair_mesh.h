@@ -27,7 +27,7 @@ struct RepairOptions {
 /// One thing that was done.
 struct RepairStep {
   std::string
-      code;  ///< stable: "welded-points", "unused-points", "degenerate-triangles", "repeated-triangles", "t-junctions",
+      code;  ///< stable: "welded-points", "joined-points", "unused-points", "degenerate-triangles", "repeated-triangles", "t-junctions",
   ///< "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "bent-fillings", "flaps", "turned-out",
   ///< "lone-points", "surfaced", "wrapped"
   std::uint64_t count = 0;

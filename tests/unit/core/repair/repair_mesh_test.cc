@@ -148,6 +148,29 @@ TEST(RepairMesh, WeldsSeparatesAndDropsWhatIsTooMuch) {
     EXPECT_NE(step(repaired, code), nullptr) << code;
 }
 
+// Every triangle with corners of its own, rounded another way each time; steps of ten times as much stay open.
+TEST(RepairMesh, JoinsCornersThatRoundingHasParted) {
+  const Mesh ball = make_sphere(10, 320);
+  const auto parted = [&](double step) {
+    Mesh soup;
+    for (const Triangle& t : ball.triangles) {
+      const auto first = static_cast<std::uint32_t>(soup.points.size());
+      for (const std::uint32_t v : t)
+        soup.points.push_back(ball.points[v] + step * Vec3{double(first % 7) - 3, double(first % 5) - 2, 1});
+      soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+  };
+  const RepairedMesh repaired = repair_mesh(parted(1e-6));
+  EXPECT_TRUE(repaired.left.empty()) << repaired.left;
+  EXPECT_EQ(repaired.mesh.points.size(), ball.points.size());
+  EXPECT_NEAR(volume_of(repaired.mesh), volume_of(ball), 1e-2);
+  ASSERT_NE(step(repaired, "joined-points"), nullptr);
+  EXPECT_GT(step(repaired, "joined-points")->count, 700U);
+  EXPECT_EQ(step(repaired, "filled-holes"), nullptr);
+  EXPECT_EQ(step(repair_mesh(parted(1e-3)), "joined-points"), nullptr);
+}
+
 TEST(RepairMesh, AWrapHasTheVolumeOfWhatItWraps) {
   const Mesh body = make_body({.triangles = 5000});
   const Mesh open = cut(cut(body, body.points[17], 40), body.points[900], 30);
