@@ -73,7 +73,7 @@ void add_measure(CommandLine& line) {
   add_job(command, options->job);
   command
       ->add_option("--threshold", options->threshold,
-                   "The shortest limb that counts, in its own radii (default: 0.9)")
+                   "The shortest limb that counts, in its own radii (default and least: 0.9)")
       ->check(positive_number())
       ->type_name("T");
   command->add_option("-o,--output", options->output, "File to write: .csv or .json; - is stdout")
