@@ -1,6 +1,5 @@
 #include "database/sqlite.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -34,99 +33,7 @@ constexpr int kPagesCopied = 1024;
 // The database file grows in steps of this size.
 constexpr int kGrowthBytes = 1 << 20;
 
-/// The error of making a small file beside this one; 0 when that works.  The file itself must not be opened:
-/// closing it would release SQLite's locks.
-int probe_disk(const std::string& file) {
-  const std::string probe = file + ".probe";
-  unlink(probe.c_str());  // of a process that was killed here
-  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (fd < 0) return errno;
-  const int error = posix_fallocate(fd, 0, kPageBytes);
-  close(fd);
-  unlink(probe.c_str());
-  return error;
-}
-
-std::string name_of(sqlite3* db) {
-  const char* name = sqlite3_db_filename(db, "main");
-  return name == nullptr ? "" : name;
-}
-
-bool means_no_room(int cause) {
-  return cause == ENOSPC || cause == EDQUOT;
-}
-
-/// The error code.  SQLite reports a full quota, and a full disk while it writes the log's index, as I/O
-/// errors, and a log that cannot be made for want of an inode without its cause: they become SQLITE_FULL.
-int code_of(sqlite3* db) {
-  const int code = sqlite3_extended_errcode(db);
-  const int primary = code & 0xff;
-  const int cause = sqlite3_system_errno(db);
-  if (primary != SQLITE_IOERR && primary != SQLITE_CANTOPEN) return code;
-  if (means_no_room(cause)) return SQLITE_FULL;
-  const bool tells = primary == SQLITE_IOERR || cause == EMFILE || cause == ENFILE;
-  const std::string file = name_of(db);
-  return !tells && !file.empty() && means_no_room(probe_disk(file)) ? SQLITE_FULL : code;
-}
-
-bool failed_reading(int code) {
-  return code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ || code == SQLITE_IOERR_CORRUPTFS;
-}
-
-/// The message of an error.  Failures of the disk name file and cause, for users; all others are for
-/// developers.
-std::string describe(sqlite3* db, int code, int cause, const std::string& context) {
-  if (db == nullptr) return "database " + context + ": out of memory";
-  const int primary = code & 0xff;
-  const std::string name = name_of(db), file = name.empty() ? context : name;
-  if (primary == SQLITE_IOERR) {
-    const std::string why = cause != 0 ? std::strerror(cause) : sqlite3_errmsg(db);
-    return "database " + file + (failed_reading(code) ? ": cannot be read: " : ": cannot be written: ") + why;
-  }
-  if (code == SQLITE_FULL) return "database " + file + ": no room on the disk (space or inodes)";
-  if (primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB) {
-    return "database " + file + ": is damaged (" + sqlite3_errmsg(db) + "): stop the server and run" +
-           " affskel-server check --repair, or restore a backup";
-  }
-  return "database " + context + ": " + sqlite3_errmsg(db) + " (code " + std::to_string(code) + ")";
-}
-
-[[noreturn]] void raise(sqlite3* db, const std::string& context) {
-  const int code = db == nullptr ? SQLITE_NOMEM : code_of(db);
-  const int primary = code & 0xff;
-  const int cause = db == nullptr ? 0 : sqlite3_system_errno(db);
-  const std::string message = describe(db, code, cause, context);
-  if ((primary == SQLITE_CANTOPEN || primary == SQLITE_IOERR) && (cause == EMFILE || cause == ENFILE)) {
-    throw OutOfFiles(code, message);
-  }
-  throw SqliteError(code, message);
-}
-
 }  // namespace
-
-bool SqliteError::blames_the_file() const {
-  switch (primary_code()) {
-    case SQLITE_NOTADB:
-    case SQLITE_CORRUPT:
-    case SQLITE_CANTOPEN:
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-    case SQLITE_AUTH:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool SqliteError::says_damaged() const {
-  return primary_code() == SQLITE_NOTADB || primary_code() == SQLITE_CORRUPT ||
-         failed_reading(extended_code_);
-}
-
-bool SqliteError::says_device() const {
-  return (primary_code() == SQLITE_IOERR && !says_damaged()) || primary_code() == SQLITE_READONLY ||
-         primary_code() == SQLITE_CANTOPEN;
-}
 
 struct Database::Cached {
   explicit Cached(sqlite3_stmt* handle) : statement(handle) {}
@@ -152,7 +59,8 @@ Statement::~Statement() {
 }
 
 void Statement::check(int code) const {
-  if (code != SQLITE_OK) raise(sqlite3_db_handle(handle_), std::string("statement ") + sqlite3_sql(handle_));
+  if (code != SQLITE_OK)
+    raise_sqlite_error(sqlite3_db_handle(handle_), std::string("statement ") + sqlite3_sql(handle_));
 }
 
 void Statement::bind(int index, std::string_view text) {
@@ -179,7 +87,7 @@ bool Statement::step() {
   const int code = sqlite3_step(handle_);
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  raise(sqlite3_db_handle(handle_), std::string("statement ") + sqlite3_sql(handle_));
+  raise_sqlite_error(sqlite3_db_handle(handle_), std::string("statement ") + sqlite3_sql(handle_));
 }
 
 std::int64_t Statement::integer(int column) const {
@@ -212,10 +120,10 @@ Database::Database(const std::string& file, Mode mode) : file_(file) {
   try {
     if (sqlite3_open_v2(file.c_str(), &handle_, access | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE,
                         nullptr) != SQLITE_OK) {
-      raise(handle_, file);
+      raise_sqlite_error(handle_, file);
     }
     sqlite3_extended_result_codes(handle_, 1);
-    if (register_checksum(handle_) != SQLITE_OK) raise(handle_, file_);
+    if (register_checksum(handle_) != SQLITE_OK) raise_sqlite_error(handle_, file_);
     sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
     execute("PRAGMA foreign_keys = ON");
     prepare_rollback();
@@ -269,7 +177,7 @@ void Database::close() noexcept {
 sqlite3_stmt* Database::compile(const char* sql) {
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v3(handle_, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement, nullptr) != SQLITE_OK) {
-    raise(handle_, file_ + ": statement " + sql);
+    raise_sqlite_error(handle_, file_ + ": statement " + sql);
   }
   return statement;
 }
@@ -341,7 +249,7 @@ bool Database::checkpoint() {
   sqlite3_busy_timeout(handle_, 0);
   const int code = sqlite3_wal_checkpoint_v2(handle_, "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
   sqlite3_busy_timeout(handle_, kBusyTimeoutMs);
-  if (code != SQLITE_OK && (code & 0xff) != SQLITE_BUSY) raise(handle_, file_);
+  if (code != SQLITE_OK && (code & 0xff) != SQLITE_BUSY) raise_sqlite_error(handle_, file_);
   return code == SQLITE_OK;
 }
 
@@ -367,7 +275,7 @@ class CopyTarget {
       return;
     }
     const Closer closer{handle_};
-    raise(handle_, context_);
+    raise_sqlite_error(handle_, context_);
   }
   ~CopyTarget() { sqlite3_close_v2(handle_); }
   CopyTarget(const CopyTarget&) = delete;
@@ -375,11 +283,11 @@ class CopyTarget {
 
   bool fill_from(sqlite3* source, const std::function<bool()>& go_on) {
     sqlite3_backup* copy = sqlite3_backup_init(handle_, "main", source, "main");
-    if (copy == nullptr) raise(handle_, context_);
+    if (copy == nullptr) raise_sqlite_error(handle_, context_);
     int code = SQLITE_OK;
     while (code == SQLITE_OK && go_on()) code = sqlite3_backup_step(copy, kPagesCopied);
     // It leaves the error that a step met, if any, with the target.
-    if (sqlite3_backup_finish(copy) != SQLITE_OK) raise(handle_, context_);
+    if (sqlite3_backup_finish(copy) != SQLITE_OK) raise_sqlite_error(handle_, context_);
     return code == SQLITE_DONE;
   }
 
@@ -400,7 +308,8 @@ bool Database::copy_to(const std::string& file, const std::function<bool()>& go_
 }
 
 void Database::execute(const std::string& script) {
-  if (sqlite3_exec(handle_, script.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) raise(handle_, file_);
+  if (sqlite3_exec(handle_, script.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    raise_sqlite_error(handle_, file_);
 }
 
 Transaction::Transaction(Database& db, Kind kind) : db_(db) {
@@ -425,15 +334,13 @@ BlobHandle::~BlobHandle() {
 }
 
 void BlobHandle::check(int code) const {
-  if (code != SQLITE_OK) raise(db_.handle(), db_.file() + ": blob");
+  if (code != SQLITE_OK) raise_sqlite_error(db_.handle(), db_.file() + ": blob");
 }
 
-void BlobHandle::reopen(std::int64_t rowid) {
-  check(sqlite3_blob_reopen(handle_, rowid));
-}
 void BlobHandle::read(void* to, int bytes, int offset) const {
   check(sqlite3_blob_read(handle_, to, bytes, offset));
 }
+
 void BlobHandle::write(const void* from, int bytes, int offset) {
   check(sqlite3_blob_write(handle_, from, bytes, offset));
 }

@@ -7,36 +7,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
+#include "database/sqlite_error.h"
+
 namespace affskel::server {
-
-/// An error of SQLite itself: a bug, a damaged file or a full disk.
-class SqliteError : public std::runtime_error {
- public:
-  SqliteError(int extended_code, const std::string& message)
-      : std::runtime_error(message), extended_code_(extended_code) {}
-  int extended_code() const { return extended_code_; }
-  int primary_code() const { return extended_code_ & 0xff; }
-  /// The file is damaged, foreign or closed to us: no bug of this program.
-  bool blames_the_file() const;
-  /// Bytes of it cannot be read, or are not what a database has there.
-  bool says_damaged() const;
-  /// The device failed a write or cannot be written: what was asked for may be asked again.
-  bool says_device() const;
-
- private:
-  int extended_code_;
-};
-
-/// The process or the machine has no descriptor left for the database's files: it soon has again.
-class OutOfFiles : public SqliteError {
- public:
-  using SqliteError::SqliteError;
-};
 
 /// Bytes to bind as a BLOB; text is bound as TEXT.
 struct Blob {
@@ -238,8 +215,6 @@ class BlobHandle {
   BlobHandle(const BlobHandle&) = delete;
   BlobHandle& operator=(const BlobHandle&) = delete;
 
-  /// Moves to another row of the same table and column.
-  void reopen(std::int64_t rowid);
   int size() const { return sqlite3_blob_bytes(handle_); }
   void read(void* to, int bytes, int offset) const;
   void write(const void* from, int bytes, int offset);

@@ -69,10 +69,12 @@ TEST(RenderScene, AVertexAloneIsASpot) {
   input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
   RenderOptions options;
   options.cameras = {parse_camera("top")};
+  options.bare = true;  // the legend would make the picture higher
   const Image without = render_scene(input, options);
   for (int k = 0; k < 3; ++k) input.sheet.add_xyz(50);
   input.sheet.add_erosion(5);
   const Image with = render_scene(input, options);
+  ASSERT_EQ(with.height(), without.height());
   int changed = 0;
   for (int y = 0; y < with.height(); ++y)
     for (int x = 0; x < with.width(); ++x) changed += with.at(x, y) == without.at(x, y) ? 0 : 1;
