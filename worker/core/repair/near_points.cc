@@ -11,7 +11,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kOfDiagonal = 1e-6, kOfEdge = 1e-2;
+constexpr double kNearOfDiagonal = 1e-6, kNearOfEdge = 1e-2;
 
 // An end of open edges, and how far from it another may lie.
 struct OpenEnd {
@@ -28,10 +28,10 @@ std::vector<OpenEnd> open_ends(const std::vector<Vec3>& points, const std::vecto
     const double length = norm(points[high] - points[low]);
     for (const std::uint32_t end : {low, high}) shortest[end] = std::min(shortest[end], length);
   });
-  const double most = kOfDiagonal * norm(box_of(points).sides());
+  const double most = kNearOfDiagonal * norm(box_of(points).sides());
   std::vector<OpenEnd> ends;
   for (std::uint32_t p = 0; p < points.size(); ++p)
-    if (shortest[p] < none) ends.push_back({p, std::min(most, kOfEdge * shortest[p])});
+    if (shortest[p] < none) ends.push_back({p, std::min(most, kNearOfEdge * shortest[p])});
   std::sort(ends.begin(), ends.end(), [&](const OpenEnd& a, const OpenEnd& b) {
     const double of_a = points[a.point].x, of_b = points[b.point].x;
     return of_a != of_b ? of_a < of_b : a.point < b.point;
