@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kForgetMs = 60000;
 
 // Bounds the list: anybody can make up ids.
-constexpr std::size_t kMaxWorkers = 4096;
+constexpr std::size_t kMaxKnownWorkers = 4096;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ bool WorkerRegistry::is_supervised(const v1::WorkerIdentity& worker) const {
 void WorkerRegistry::seen(const v1::WorkerIdentity& worker, std::uint32_t wait_ms) {
   const bool supervised = is_supervised(worker);
   const base::MutexLock lock(mutex_);
-  if (workers_.size() >= kMaxWorkers && !workers_.contains(worker.id())) forget_one();
+  if (workers_.size() >= kMaxKnownWorkers && !workers_.contains(worker.id())) forget_one();
   Entry& entry = workers_[worker.id()];
   entry.wait_ms = wait_ms;
   v1::WorkerInfo& info = entry.info;
