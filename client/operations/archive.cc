@@ -96,7 +96,7 @@ void write_archive(Session& session, const std::vector<v1::Job>& jobs, const fs:
     const fs::path there = scratch.path() / job.id();
     fs::create_directory(there);
     std::vector<FetchRequest> wanted = main_files(job, (there / portable_name(job.name())).string());
-    wanted.push_back({job.id(), "mesh", {there / (portable_name(job.name()) + ".off")}});
+    wanted.push_back(one_file(job, "mesh", there / (portable_name(job.name()) + ".off")));
     for (const FetchRequest& request : wanted) {
       fetch(session, request);
       const fs::path& part = request.destination.file;

@@ -74,10 +74,17 @@ FileFormat open_field_format(const v1::Job& job) {
   return FileFormat::kVti;
 }
 
+FetchRequest one_file(const v1::Job& job, const std::string& artifact, const std::string& path) {
+  FetchRequest request;
+  request.job = job.id();
+  request.artifact = artifact;
+  request.destination = {path};
+  return request;
+}
+
 std::vector<FetchRequest> main_files(const v1::Job& job, const std::string& stem) {
-  return {{job.id(), "field", {stem + ".field" + std::string(extension_of(open_field_format(job)))}},
-          {job.id(), "skeleton", {stem + ".skeleton.vtp"}},
-          {job.id(), "skeleton", {stem + ".skeleton.ply"}}};
+  return {one_file(job, "field", stem + ".field" + std::string(extension_of(open_field_format(job)))),
+          one_file(job, "skeleton", stem + ".skeleton.vtp"), one_file(job, "skeleton", stem + ".skeleton.ply")};
 }
 
 }  // namespace affskel::client

@@ -64,6 +64,9 @@ Fetched fetch(Session& session, const FetchRequest& request);
 /// lattice is not parallel to the mesh's axes.
 FileFormat open_field_format(const v1::Job& job);
 
+/// An artefact in a file, the format by its extension, all else as it is by default.
+FetchRequest one_file(const v1::Job& job, const std::string& artifact, const std::string& path);
+
 /// What most people want of a job: its field in that format, STEM.field.vti or .vts, and its skeleton,
 /// STEM.skeleton.vtp and .ply.
 std::vector<FetchRequest> main_files(const v1::Job& job, const std::string& stem);

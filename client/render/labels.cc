@@ -11,8 +11,6 @@
 namespace affskel::client {
 namespace {
 
-constexpr Rgb kInk{0.05f, 0.05f, 0.05f};
-
 // What the viewer sees first where a place is seen; none beside the body.
 std::optional<Rgb> colour_seen(const PaintedBody& body, const std::vector<PanelPlace>& points,
                                const PanelPlace& at) {

@@ -9,6 +9,9 @@
 
 namespace affskel::client {
 
+/// Of what is drawn on a body or shines through it.
+inline constexpr Rgb kInk{0.05f, 0.05f, 0.05f};
+
 /// What is written beside a place within the body, where what the viewer sees before it has this colour.
 struct Label {
   core::Vec3 place;

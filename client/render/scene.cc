@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "client/artifacts/spots.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/render/arrangement.h"
@@ -12,7 +13,6 @@
 #include "client/render/legend.h"
 #include "client/render/panel.h"
 #include "client/render/stroke_text.h"
-#include "core/base/disjoint_sets.h"
 
 namespace affskel::client {
 namespace {
@@ -23,7 +23,6 @@ constexpr double kPartOfCell = 0.42;  // half the size of a point's ball: balls 
 constexpr int kMinWidth = 200, kMaxWidth = 8000;
 constexpr std::size_t kMaxCameras = 6;
 constexpr double kTallest = 1.25;  // the views' height by the picture's width: a slim body stays on a screen
-constexpr Rgb kInBody{0.05f, 0.05f, 0.05f};  // a skeleton that shines through a painted body
 constexpr Rgb kDark{0.08f, 0.09f, 0.12f};
 
 // One view, and how large the body is in it.
@@ -149,37 +148,21 @@ core::Mesh mesh_of(const v1::TriangleMesh& surface) {
   return mesh;
 }
 
-// @param curve_width pixels. @param colours per vertex.
+// @param curve_width pixels; what is no wider is a spot. @param scale pixels per unit. @param colours per vertex.
 void draw_sheet(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, double curve_width,
-                Panel& panel) {
+                double scale, Panel& panel) {
   const core::Mesh mesh = mesh_of(sheet);
   panel.draw_sheet(mesh, colours);
   std::vector<core::Segment> segments;
   for (int i = 0; i < sheet.segments_size(); i += 2)
     segments.push_back({sheet.segments(i), sheet.segments(i + 1)});
   panel.draw_curves(mesh.points, segments, colours, curve_width);
-}
-
-// A piece that is no wider than a curve on the picture, such as the centre of a ball, is a spot.
-void draw_spots(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, double width, double scale,
-                Panel& panel) {
-  const core::Mesh mesh = mesh_of(sheet);
-  core::DisjointSets pieces(mesh.points.size());
-  for (const auto& [a, b, c] : mesh.triangles) pieces.unite(a, b), pieces.unite(a, c);
-  for (int i = 0; i < sheet.segments_size(); i += 2) pieces.unite(sheet.segments(i), sheet.segments(i + 1));
-  std::vector<std::optional<Box>> boxes(mesh.points.size());
-  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    std::optional<Box>& box = boxes[pieces.find(v)];
-    if (!box) box = Box{mesh.points[v], mesh.points[v]};
-    box->add(mesh.points[v]);
-  }
-  for (std::uint32_t v = 0; v < mesh.points.size(); ++v)
-    if (scale * boxes[pieces.find(v)]->longest_side() < width)
-      panel.draw_ball({mesh.points[v], colours[v]}, width);
+  for (const std::uint32_t v : spots_of(sheet, curve_width / scale))
+    panel.draw_ball({mesh.points[v], colours[v]}, curve_width);
 }
 
 std::vector<Rgb> colours_of(const RenderInput& input, double highest) {
-  if (input.painted) return std::vector<Rgb>(static_cast<std::size_t>(input.sheet.erosion_size()), kInBody);
+  if (input.painted) return std::vector<Rgb>(static_cast<std::size_t>(input.sheet.erosion_size()), kInk);
   std::vector<Rgb> colours;
   for (const double e : input.sheet.erosion()) colours.push_back(viridis(colour_position(e, highest)));
   return colours;
@@ -220,8 +203,7 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   draw_points(input, layout, highest, panel);
   const std::vector<Rgb> colours = colours_of(input, highest);
   const double curve_width = std::max(2.0, layout.text / 5);
-  draw_sheet(input.sheet, colours, curve_width, panel);
-  draw_spots(input.sheet, colours, curve_width, layout.scale(), panel);
+  draw_sheet(input.sheet, colours, curve_width, layout.scale(), panel);
   draw_marks(input, layout, panel);
   draw_solids(input, options, panel);
   const ScreenPoint at = layout.place(which);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "client/artifacts/solid_parts.h"
+#include "client/artifacts/spots.h"
 #include "client/base/colour.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
@@ -16,6 +17,7 @@
 #include "client/text/markup_text.h"
 #include "client/text/summary_text.h"
 #include "client/text/words.h"
+#include "client/view/page_arrays.h"
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
 #include "core/files/base64.h"
@@ -43,27 +45,6 @@ struct Scale {
   std::array<double, 3> place(const Vec3& v) const { return length(v - centre); }
 };
 
-// The arrays of a page, one after the other, each at a multiple of 4 bytes; a directory for each model.
-class Arrays {
- public:
-  void begin_model() { directory_ = ordered_json::object(); }
-
-  // type: u16, u32, f32 or i8.
-  template <typename Number>
-  void add(const char* name, const char* type, const std::vector<Number>& values) {
-    bytes_.resize((bytes_.size() + 3) / 4 * 4);
-    directory_[name] = {type, bytes_.size(), values.size()};
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number));
-  }
-
-  const ordered_json& directory() const { return directory_; }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  ordered_json directory_;
-  std::string bytes_;
-};
-
 // Vertices to 1/65535 of the box, which no screen shows.
 std::vector<std::uint16_t> steps_in(const Box& box, const std::vector<Vec3>& points) {
   const std::array<double, 3> low = components(box.low), size = components(box.size());
@@ -79,7 +60,7 @@ std::vector<std::uint16_t> steps_in(const Box& box, const std::vector<Vec3>& poi
   return steps;
 }
 
-void add_corners(Arrays& arrays, const char* name, const std::vector<std::uint32_t>& corners,
+void add_corners(PageArrays& arrays, const char* name, const std::vector<std::uint32_t>& corners,
                  std::size_t vertices) {
   if (vertices <= kQuantum) {
     arrays.add(name, "u16", std::vector<std::uint16_t>(corners.begin(), corners.end()));
@@ -88,7 +69,7 @@ void add_corners(Arrays& arrays, const char* name, const std::vector<std::uint32
   }
 }
 
-ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
+ordered_json add_mesh(PageArrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
   std::vector<std::uint32_t> corners;
   corners.reserve(3 * mesh.triangles.size());
   for (const core::Triangle& triangle : mesh.triangles)
@@ -106,7 +87,7 @@ ordered_json add_mesh(Arrays& arrays, const core::Mesh& mesh, const Box& box, co
 }
 
 // The eroded solids, in the mesh's grid: they lie in it.
-ordered_json add_eroded(Arrays& arrays, const ViewModel& model, const Box& box) {
+ordered_json add_eroded(PageArrays& arrays, const ViewModel& model, const Box& box) {
   ordered_json facts = ordered_json::array();
   for (std::size_t level = 0; level < model.eroded.size(); ++level) {
     const v1::TriangleMesh& surface = model.eroded[level];
@@ -128,7 +109,7 @@ std::int8_t quantised(double component) {
   return static_cast<std::int8_t>(std::lround(127 * std::clamp(component, -1.0, 1.0)));
 }
 
-ordered_json add_points(Arrays& arrays, const ViewModel& model, const Scale& scale) {
+ordered_json add_points(PageArrays& arrays, const ViewModel& model, const Scale& scale) {
   std::vector<std::uint16_t> steps;
   std::vector<float> shares, divergences, slopes;
   std::vector<std::int8_t> inward;
@@ -161,8 +142,17 @@ std::vector<std::int8_t> bytes_of(const Doubles& unit_vectors) {
   return bytes;
 }
 
-void add_sheet(Arrays& arrays, const ViewModel& model, const Scale& scale) {
-  const v1::TriangleMesh& sheet = model.sheet;
+// The skeleton, with a segment of no length where it is as small as a sample point's cell.
+v1::TriangleMesh with_spots(v1::TriangleMesh sheet, double spacing) {
+  for (const std::uint32_t v : spots_of(sheet, spacing)) {
+    sheet.add_segments(v);
+    sheet.add_segments(v);
+  }
+  return sheet;
+}
+
+void add_sheet(PageArrays& arrays, const ViewModel& model, const Scale& scale) {
+  const v1::TriangleMesh sheet = with_spots(model.sheet, model.job.prepared().spacing());
   std::vector<float> positions, shares;
   for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
     const Vec3 at{sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)};
@@ -185,7 +175,7 @@ void add_sheet(Arrays& arrays, const ViewModel& model, const Scale& scale) {
   arrays.add("sheetPieceShares", "f32", std::vector<float>(pieces.shares.begin(), pieces.shares.end()));
 }
 
-void add_marks(Arrays& arrays, const ViewModel& model, const Scale& scale) {
+void add_marks(PageArrays& arrays, const ViewModel& model, const Scale& scale) {
   std::vector<float> positions;
   for (const MarkedEdge& edge : model.marks)
     for (const Vec3& end : {edge.from, edge.to})
@@ -194,7 +184,7 @@ void add_marks(Arrays& arrays, const ViewModel& model, const Scale& scale) {
 }
 
 // What of the body each triangle is.
-ordered_json add_parts(Arrays& arrays, const v1::SolidParts& solid) {
+ordered_json add_parts(PageArrays& arrays, const v1::SolidParts& solid) {
   ordered_json parts = ordered_json::array();
   if (solid.parts().empty()) return parts;
   arrays.add("meshParts", "u16",
@@ -272,7 +262,7 @@ ordered_json facts_of(const ViewModel& model, const Box& box, const Scale& scale
 }
 
 // @param unit of all models, mesh units per page unit.
-ordered_json add_model(Arrays& arrays, const ViewModel& model, double unit) {
+ordered_json add_model(PageArrays& arrays, const ViewModel& model, double unit) {
   arrays.begin_model();
   const Box box = mesh_box(model.mesh);
   const Scale scale{box.centre(), unit};
@@ -381,7 +371,7 @@ std::string view_page(const ViewInput& input) {
   }
   const double unit = 0.5 * longest;
   ordered_json facts = page_facts(input, unit);
-  Arrays arrays;
+  PageArrays arrays;
   for (const ViewModel& model : input.models) facts["models"].push_back(add_model(arrays, model, unit));
   const std::string name = markup_text(name_of(input)), data = json_for_html(facts),
                     block = core::base64(arrays.bytes());

@@ -16,11 +16,6 @@ namespace {
 // Long enough for another process (a backup, a shell) to finish what it does with the file.
 constexpr int kBusyTimeoutMs = 10000;
 
-// Reports log megabytes of records, and every page of them costs several calls of the system; every small
-// commit, on the other hand, logs the few pages that it touches whole.  A database keeps the size it was
-// made with.
-constexpr int kPageBytes = 16384;
-
 // Reports rewrite field pages over and over: a long log copies each page to the database less often.
 constexpr std::int64_t kJournalBytes = std::int64_t{64} << 20;
 

@@ -9,9 +9,6 @@
 namespace affskel::server {
 namespace {
 
-// A page of a database, see sqlite.cc.
-constexpr int kProbeBytes = 16384;
-
 std::string name_of(sqlite3* db) {
   const char* name = sqlite3_db_filename(db, "main");
   return name == nullptr ? "" : name;
@@ -63,7 +60,7 @@ int probe_disk(const std::string& file) {
   unlink(probe.c_str());  // of a process that was killed here
   const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (fd < 0) return errno;
-  const int error = posix_fallocate(fd, 0, kProbeBytes);
+  const int error = posix_fallocate(fd, 0, kPageBytes);
   close(fd);
   unlink(probe.c_str());
   return error;

@@ -7,6 +7,11 @@
 
 namespace affskel::server {
 
+/// Bytes of a page.  Reports log megabytes of records, and every page of them costs several calls of the system; every
+/// small commit, on the other hand, logs the few pages that it touches whole.  A database keeps the size it was made
+/// with.
+inline constexpr int kPageBytes = 16384;
+
 /// An error of SQLite itself: a bug, a damaged file or a full disk.
 class SqliteError : public std::runtime_error {
  public:

@@ -13,8 +13,6 @@ namespace {
 
 using wire::PointRecord;
 
-constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
-
 // A chunk is written back in stretches of this many points, and only those that changed: late in a job
 // few points of a chunk still improve, and each page written costs its place in the log.
 constexpr std::size_t kStretchPoints = 256;
@@ -33,11 +31,11 @@ constexpr std::int64_t kMaxRecordsPerPoint = 64;
 }
 
 std::string empty_chunk(std::size_t count) {
-  char record[kRecordBytes];
+  char record[wire::kFieldRecordBytes];
   wire::encode_field_record(record, {});
   std::string chunk;
-  chunk.reserve(count * kRecordBytes);
-  for (std::size_t i = 0; i < count; ++i) chunk.append(record, kRecordBytes);
+  chunk.reserve(count * wire::kFieldRecordBytes);
+  for (std::size_t i = 0; i < count; ++i) chunk.append(record, wire::kFieldRecordBytes);
   return chunk;
 }
 
@@ -160,7 +158,8 @@ FieldPart::Chunk& FieldPart::chunk(std::int64_t index) {
 void FieldPart::merge(const PointRecord& record) {
   Chunk& to = chunk(record.point / kChunkPoints);
   const std::size_t at = record.point % kChunkPoints;
-  if (merge_one(to.bytes.data() + at * kRecordBytes, record)) to.changed[at / kStretchPoints] = true;
+  if (merge_one(to.bytes.data() + at * wire::kFieldRecordBytes, record))
+    to.changed[at / kStretchPoints] = true;
 }
 
 void FieldPart::merge_log() {
@@ -187,7 +186,7 @@ void FieldPart::store() {
 
 void FieldPart::write_changed(std::int64_t index, const Chunk& chunk) {
   BlobHandle blob(db_, "field_chunks", "data", chunk_row(db_, erosion_id_, index));
-  const std::size_t stretch_bytes = kStretchPoints * kRecordBytes;
+  const std::size_t stretch_bytes = kStretchPoints * wire::kFieldRecordBytes;
   for (std::size_t first = 0; first < chunk.changed.size(); ++first) {
     if (!chunk.changed[first]) continue;
     std::size_t last = first;
@@ -209,15 +208,18 @@ std::string log_bytes(Records begin, Records end) {
   return bytes;
 }
 
-/// Merges what is logged of a part, and [begin, end) of the same, into its chunks.  What an earlier server logged stays
-/// until the field is settled.
-void merge_part(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t part, Records begin,
-                Records end) {
+enum class Logged { kMerged, kLeft };
+
+/// Merges [begin, end) of a part, and perhaps what is logged of it, into its chunks.  What an earlier server logged
+/// stays until the field is settled.
+void merge_part(Database& db, std::int64_t erosion_id, std::int64_t points, std::int64_t part, Logged logged,
+                Records begin, Records end) {
   FieldPart chunks(db, erosion_id, points, part);
-  chunks.merge_log();
+  if (logged == Logged::kMerged) chunks.merge_log();
   std::for_each(begin, end, [&](const PointRecord& record) { chunks.merge(record); });
   chunks.store();
-  db.run("DELETE FROM field_log WHERE erosion_id = ? AND part = ?", erosion_id, part);
+  if (logged == Logged::kMerged)
+    db.run("DELETE FROM field_log WHERE erosion_id = ? AND part = ?", erosion_id, part);
 }
 
 }  // namespace
@@ -228,17 +230,15 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
     const std::int64_t part = log_part_of(begin->point);
     const Records end = std::find_if(begin, records.end(),
                                      [&](const PointRecord& r) { return log_part_of(r.point) != part; });
-    const std::int64_t most = kMostLogged * static_cast<std::int64_t>(kRecordBytes) *
+    const std::int64_t most = kMostLogged * static_cast<std::int64_t>(wire::kFieldRecordBytes) *
                               std::min(kLogPartPoints, points - part * kLogPartPoints);
     if (is_dense(begin, end)) {
-      FieldPart chunks(db, erosion_id, points, part);
-      std::for_each(begin, end, [&](const PointRecord& record) { chunks.merge(record); });
-      chunks.store();
+      merge_part(db, erosion_id, points, part, Logged::kLeft, begin, end);
     } else if (const std::string bytes = log_bytes(begin, end);
                logged_bytes(db, erosion_id, part) + static_cast<std::int64_t>(bytes.size()) <= most) {
       insert_log(db, erosion_id, part, bytes);
     } else {
-      merge_part(db, erosion_id, points, part, begin, end);
+      merge_part(db, erosion_id, points, part, Logged::kMerged, begin, end);
     }
     begin = end;
   }
@@ -246,23 +246,23 @@ void merge_records(Database& db, std::int64_t erosion_id, std::int64_t points,
 
 void settle_field(Database& db, std::int64_t erosion_id, std::int64_t points) {
   for (std::int64_t part = 0; part * kLogPartPoints < points; ++part)
-    merge_part(db, erosion_id, points, part, {}, {});
+    merge_part(db, erosion_id, points, part, Logged::kMerged, {}, {});
   db.run("DELETE FROM field_log WHERE erosion_id = ?", erosion_id);
 }
 
 std::int64_t remove_values(Database& db, std::int64_t erosion_id, std::int64_t points,
                            const std::function<bool(std::uint32_t direction)>& gone) {
   settle_field(db, erosion_id, points);
-  char none[kRecordBytes];
+  char none[wire::kFieldRecordBytes];
   wire::encode_field_record(none, {});
   std::int64_t removed = 0;
   for (std::int64_t index = 0; index < field_chunk_count(points); ++index) {
     std::string chunk = load_chunk(db, erosion_id, index);
     const std::int64_t before = removed;
-    for (std::size_t at = 0; at < chunk.size(); at += kRecordBytes) {
+    for (std::size_t at = 0; at < chunk.size(); at += wire::kFieldRecordBytes) {
       const wire::FieldRecord record = wire::decode_field_record(chunk.data() + at);
       if (record.direction == wire::kNoDirection || !gone(record.direction)) continue;
-      chunk.replace(at, kRecordBytes, none, kRecordBytes);
+      chunk.replace(at, wire::kFieldRecordBytes, none, wire::kFieldRecordBytes);
       ++removed;
     }
     if (removed == before) continue;

@@ -17,8 +17,6 @@
 namespace affskel::server {
 namespace {
 
-constexpr std::size_t kRecordBytes = wire::kFieldRecordBytes;
-
 // A task has at most a sixteenth of all directions, as a block has.
 constexpr std::int64_t kParts = 16, kMinPart = 16;
 
@@ -29,7 +27,7 @@ std::unordered_map<std::int64_t, std::int64_t> values_by_position(Database& db, 
   FieldView field(db, job.erosion_id, job.points);
   for (std::int64_t index = 0; index < field.chunk_count(); ++index) {
     const std::string chunk = field.chunk(index);
-    for (std::size_t at = 0; at < chunk.size(); at += kRecordBytes) {
+    for (std::size_t at = 0; at < chunk.size(); at += wire::kFieldRecordBytes) {
       const std::uint32_t direction = wire::decode_field_record(chunk.data() + at).direction;
       if (direction != wire::kNoDirection) ++count[positions.position(direction)];
     }
@@ -240,7 +238,7 @@ std::optional<std::int64_t> sample_for(Database& db, const Seeker& seeker) {
 
 SampleResult compare_sample(Database& db, const TaskRow& task, std::string_view fresh) {
   const JobRow job = get_job(db, task.job_id);
-  if (fresh.size() != static_cast<std::size_t>(job.points) * kRecordBytes) {
+  if (fresh.size() != static_cast<std::size_t>(job.points) * wire::kFieldRecordBytes) {
     throw StoreError(StoreError::Code::kInvalid, "result: a field of " + std::to_string(fresh.size()) +
                                                      " bytes, not of " + std::to_string(job.points) +
                                                      " points");
@@ -251,16 +249,17 @@ SampleResult compare_sample(Database& db, const TaskRow& task, std::string_view 
   for (std::int64_t index = 0; index < field.chunk_count(); ++index) {
     const std::string chunk = field.chunk(index);
     const std::string_view other =
-        fresh.substr(static_cast<std::size_t>(index * kChunkPoints) * kRecordBytes, chunk.size());
-    for (std::size_t at = 0; at < chunk.size(); at += kRecordBytes) {
+        fresh.substr(static_cast<std::size_t>(index * kChunkPoints) * wire::kFieldRecordBytes, chunk.size());
+    for (std::size_t at = 0; at < chunk.size(); at += wire::kFieldRecordBytes) {
       const wire::FieldRecord stored = wire::decode_field_record(chunk.data() + at);
       const wire::FieldRecord computed = wire::decode_field_record(other.data() + at);
       const bool of_sample = sampled.contains(stored.direction);
       if (of_sample) ++result.compared;
-      const bool same = std::string_view(chunk).substr(at, kRecordBytes) == other.substr(at, kRecordBytes);
+      const bool same = std::string_view(chunk).substr(at, wire::kFieldRecordBytes) ==
+                        other.substr(at, wire::kFieldRecordBytes);
       if (of_sample ? same : !less(computed, stored)) continue;
       if (result.differing++ > 0) continue;
-      const auto point = index * kChunkPoints + static_cast<std::int64_t>(at / kRecordBytes);
+      const auto point = index * kChunkPoints + static_cast<std::int64_t>(at / wire::kFieldRecordBytes);
       result.message = difference_text(point, stored, computed);
     }
   }

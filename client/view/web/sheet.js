@@ -45,9 +45,11 @@ function onTubes(a, size, segments, entry) {
   return all;
 }
 
+// Along a segment; a segment without length is a spot, as long as it is wide.
+const along = (from, to) => (from.equals(to) ? new Vector3(0, 0, 1) : to.clone().sub(from).normalize());
+
 // The unit vectors across a segment, for the sides of its tube.
-function across(from, to) {
-  const along = to.clone().sub(from).normalize();
+function across(along) {
   const least = Math.abs(along.x) < 0.6 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
   const first = least.cross(along).normalize();
   const second = along.cross(first);
@@ -59,18 +61,27 @@ function across(from, to) {
 
 function tubePositions(positions, segments, radius) {
   const place = (vertex) => new Vector3().fromArray(positions, 3 * vertex);
-  const sides = [];
-  for (let s = 0; s < segments.length; s += 2) sides.push(across(place(segments[s]), place(segments[s + 1])));
-  return onTubes(positions, 3, segments, (vertex, end, side) =>
-    place(vertex).addScaledVector(sides[end >> 1][side], radius).toArray());
+  const tubes = [];
+  for (let s = 0; s < segments.length; s += 2) {
+    const direction = along(place(segments[s]), place(segments[s + 1]));
+    const beyond = segments[s] === segments[s + 1] ? radius : 0;
+    tubes.push({ sides: across(direction), ends: [-beyond, beyond].map((by) => direction.clone().multiplyScalar(by)) });
+  }
+  return onTubes(positions, 3, segments, (vertex, end, side) => {
+    const { sides, ends } = tubes[end >> 1];
+    return place(vertex).addScaledVector(sides[side], radius).add(ends[end & 1]).toArray();
+  });
 }
 
 const tubeColours = (colours, segments) =>
   onTubes(colours, 4, segments, (vertex) => colours.subarray(4 * vertex, 4 * vertex + 4));
 
-// The corners of the triangles of a tube whose vertices begin at `first`.
-function tubeCorners(first) {
+// The corners of the triangles of a tube whose vertices begin at `first`; a spot's ends are closed.
+function tubeCorners(first, isSpot) {
   const corners = [];
+  for (let side = 1; isSpot && side + 1 < kSides; ++side) {
+    for (const end of [first, first + kSides]) corners.push(end, end + side, end + side + 1);
+  }
   for (let side = 0; side < kSides; ++side) {
     const a = first + side;
     const b = first + ((side + 1) % kSides);
@@ -82,7 +93,7 @@ function tubeCorners(first) {
 /** Triangles, and tubes about segments, by the weight of their pieces. */
 export class Sheet {
   /**
-   * The elements are the triangles, then the segments of curves.  pieces: per element its piece, the heaviest is
+   * The elements are the triangles, then the segments of curves, of which those from a vertex to itself are spots.  pieces: per element its piece, the heaviest is
    * 0.  radius: of the tubes, page units.
    * @param {import('./clip.js').Clip} clip
    */
@@ -94,13 +105,16 @@ export class Sheet {
     const first = positions.length / 3;
     const index = [];
     this.ends = [0]; // how much of the index the first elements take
+    this.kinds = []; // of the elements: triangle, segment or spot
     for (const e of this.order) {
       const tube = e - triangles;
-      index.push(...(tube < 0 ? corners.subarray(3 * e, 3 * e + 3) : tubeCorners(first + 2 * kSides * tube)));
+      const isSpot = tube >= 0 && segments[2 * tube] === segments[2 * tube + 1];
+      const tubeFirst = first + 2 * kSides * tube;
+      index.push(...(tube < 0 ? corners.subarray(3 * e, 3 * e + 3) : tubeCorners(tubeFirst, isSpot)));
+      this.kinds.push(tube < 0 ? 'triangle' : isSpot ? 'spot' : 'segment');
       this.ends.push(index.length);
     }
     this.drawn = 0; // of the index
-    this.isTriangle = (place) => this.order[place] < triangles;
     this.geometry = new BufferGeometry();
     const places = tubePositions(positions, segments, radius);
     this.places = places;
@@ -122,6 +136,15 @@ export class Sheet {
       }),
     );
     this.object.frustumCulled = false;
+  }
+
+  /**
+   * How many of the first elements are of a kind.
+   * @param {number} elements
+   * @param {'triangle' | 'segment' | 'spot'} kind
+   */
+  count(elements, kind) {
+    return this.kinds.slice(0, elements).filter((each) => each === kind).length;
   }
 
   showFirst(elements) {

@@ -65,13 +65,12 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
     keeps: (value, least) => value >= least,
     choice: shares.length > 1, // of one piece there is nothing to drop
     describe(elements, least) {
-      let triangles = 0;
-      for (let place = 0; place < elements; ++place) triangles += sheet.isTriangle(place) ? 1 : 0;
-      const segments = elements - triangles;
+      const [triangles, segments, spots] = ['triangle', 'segment', 'spot'].map((kind) => sheet.count(elements, kind));
       const curves = segments ? ` and ${whole(segments)} segments of curves` : '';
+      const what = elements === spots ? (spots === 1 ? 'a point' : `${whole(spots)} points`) : `${whole(triangles)} triangles${curves}`;
       const kept = prefixLength(shares, null, (share) => share >= least);
       const pieces = shares.length === 1 ? 'one piece' : `${whole(kept)} of ${whole(shares.length)} pieces`;
-      return shares.length === 0 ? 'the sheet is empty' : `${whole(triangles)} triangles${curves} in ${pieces}`;
+      return shares.length === 0 ? 'the sheet is empty' : `${what} in ${pieces}`;
     },
     at(ray) {
       const hit = sheet.pick(ray);

@@ -23,6 +23,7 @@ namespace {
 constexpr double kLongestHole = 0.6;        // of the box's diagonal: half of a body's back, a sleeve, a neck
 constexpr double kWrapDetail = 1.0 / 220;   // of the box's diagonal
 constexpr double kFinestWrap = 1.0 / 2000;  // of the box's diagonal: some five million triangles, and minutes
+constexpr double kFlattest = 1e-6;          // of the box's diagonal: single precision is as rough
 constexpr double kSmallest = 1e-60, kLargest = 1e60;
 constexpr double kWrapOffset = 0.1;  // of alpha
 // Volume by area^(3/2): a ball 0.094, a rod fifty times as long as thick 0.03, a plate of 1 % 0.0035.
@@ -260,7 +261,20 @@ void take_volume(RepairedMesh& result, const RepairOptions& options) {
   }
 }
 
-// Powers of lengths must not overflow, nor vanish.
+// How far points lie from the plane of three that are far apart.
+double thickness_of(const std::vector<Vec3>& points) {
+  const Vec3 origin = points[0];
+  Vec3 along, normal;
+  for (const Vec3& p : points)
+    if (norm(p - origin) > norm(along)) along = p - origin;
+  for (const Vec3& p : points)
+    if (const Vec3 n = cross(along, p - origin); norm(n) > norm(normal)) normal = n;
+  double thickness = 0;
+  for (const Vec3& p : points) thickness = std::max(thickness, std::fabs(dot(normal, p - origin)));
+  return thickness == 0 ? 0 : thickness / norm(normal);
+}
+
+// Powers of lengths must not overflow, nor vanish; and what is flat would be wrapped by a film.
 void check_size(const Mesh& mesh) {
   if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "the mesh has no points");
   const double size = diagonal(mesh);
@@ -269,6 +283,12 @@ void check_size(const Mesh& mesh) {
     throw CoreError(CoreError::Code::kBadInput,
                     "the mesh is " + short_text(size) +
                         " long, from corner to corner of its box; change the unit of length");
+  }
+  if (thickness_of(mesh.points) < kFlattest * size) {
+    throw CoreError(
+        CoreError::Code::kBadInput,
+        "the mesh is flat: all points lie in one plane, so that it bounds no volume; give it a thickness, by "
+        "Blender's Solidify, say");
   }
 }
 

@@ -191,6 +191,12 @@ TEST(Page, TheSheetOfChordsComesBack) {
   const std::string with_curve = view_page(page_of(input));
   EXPECT_EQ(array_of<std::uint32_t>(with_curve, "sheetSegments", "u32"), (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(array_of<std::uint32_t>(with_curve, "sheetPieces", "u32"), (std::vector<std::uint32_t>{0, 0}));
+  input.sheet.clear_corners();
+  input.sheet.clear_segments();
+  const std::string points = view_page(page_of(input));
+  EXPECT_EQ(array_of<std::uint32_t>(points, "sheetSegments", "u32"),
+            (std::vector<std::uint32_t>{0, 0, 1, 1, 2, 2}))
+      << "spots";
 }
 
 TEST(Page, TheErodedSolidsComeBackWithTheirLevels) {

@@ -39,6 +39,22 @@ const RepairStep* step(const RepairedMesh& repaired, const std::string& code) {
   return found == repaired.steps.end() ? nullptr : &*found;
 }
 
+TEST(RepairMesh, RefusesAFlatSheetAndAWrapOfIt) {
+  // Tilted, and rounded as in a file of single precision.
+  Mesh sheet{{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.7}, {1, 1, 1}}, {{0, 1, 2}, {1, 3, 2}}};
+  for (Vec3& p : sheet.points) p.z = static_cast<float>(p.z);
+  for (const RepairKind kind : {RepairKind::kMend, RepairKind::kWrap}) {
+    try {
+      repair_mesh(sheet, {.kind = kind});
+      ADD_FAILURE() << "not refused";
+    } catch (const CoreError& error) {
+      EXPECT_NE(std::string(error.what()).find("is flat"), std::string::npos) << error.what();
+    }
+  }
+  sheet.points[3].z = 1.1;
+  EXPECT_NO_THROW(repair_mesh(sheet)) << "bent";
+}
+
 TEST(RepairMesh, LeavesASoundMeshAsItIs) {
   const Mesh body = make_body();
   const RepairedMesh repaired = repair_mesh(body);
