@@ -31,6 +31,7 @@ using core::Vec3;
 using nlohmann::ordered_json;
 
 constexpr std::uint16_t kQuantum = 65535;
+constexpr double kSpot = 0.04;  // across, page units
 
 std::array<double, 3> components(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -142,9 +143,9 @@ std::vector<std::int8_t> bytes_of(const Doubles& unit_vectors) {
   return bytes;
 }
 
-// The skeleton, with a segment of no length where it is as small as a sample point's cell.
-v1::TriangleMesh with_spots(v1::TriangleMesh sheet, double spacing) {
-  for (const std::uint32_t v : spots_of(sheet, spacing)) {
+// The skeleton, with a segment of no length where it is smaller than the spot that the page draws for that.
+v1::TriangleMesh with_spots(v1::TriangleMesh sheet, const Scale& scale) {
+  for (const std::uint32_t v : spots_of(sheet, kSpot * scale.unit)) {
     sheet.add_segments(v);
     sheet.add_segments(v);
   }
@@ -152,7 +153,7 @@ v1::TriangleMesh with_spots(v1::TriangleMesh sheet, double spacing) {
 }
 
 void add_sheet(PageArrays& arrays, const ViewModel& model, const Scale& scale) {
-  const v1::TriangleMesh sheet = with_spots(model.sheet, model.job.prepared().spacing());
+  const v1::TriangleMesh sheet = with_spots(model.sheet, scale);
   std::vector<float> positions, shares;
   for (int v = 0; v < sheet.xyz_size() / 3; ++v) {
     const Vec3 at{sheet.xyz(3 * v), sheet.xyz(3 * v + 1), sheet.xyz(3 * v + 2)};

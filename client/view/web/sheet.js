@@ -30,6 +30,7 @@ const kFragmentShader = `
   }`;
 
 const kSides = 6;
+const kSpotRadius = 0.02; // page units: half of what page.cc says
 
 // What of `a` is written for each segment: one entry of `size` numbers for each of its ends and each side.
 function onTubes(a, size, segments, entry) {
@@ -52,7 +53,7 @@ const along = (from, to) => (from.equals(to) ? new Vector3(0, 0, 1) : to.clone()
 function across(along) {
   const least = Math.abs(along.x) < 0.6 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
   const first = least.cross(along).normalize();
-  const second = along.cross(first);
+  const second = along.clone().cross(first);
   return Array.from({ length: kSides }, (_, side) => {
     const angle = (2 * Math.PI * side) / kSides;
     return first.clone().multiplyScalar(Math.cos(angle)).addScaledVector(second, Math.sin(angle));
@@ -64,12 +65,15 @@ function tubePositions(positions, segments, radius) {
   const tubes = [];
   for (let s = 0; s < segments.length; s += 2) {
     const direction = along(place(segments[s]), place(segments[s + 1]));
-    const beyond = segments[s] === segments[s + 1] ? radius : 0;
-    tubes.push({ sides: across(direction), ends: [-beyond, beyond].map((by) => direction.clone().multiplyScalar(by)) });
+    const beyond = segments[s] === segments[s + 1] ? kSpotRadius : 0;
+    tubes.push({
+      sides: across(direction).map((side) => side.multiplyScalar(beyond || radius)),
+      ends: [-beyond, beyond].map((by) => direction.clone().multiplyScalar(by)),
+    });
   }
   return onTubes(positions, 3, segments, (vertex, end, side) => {
     const { sides, ends } = tubes[end >> 1];
-    return place(vertex).addScaledVector(sides[side], radius).add(ends[end & 1]).toArray();
+    return place(vertex).add(sides[side]).add(ends[end & 1]).toArray();
   });
 }
 
