@@ -35,6 +35,8 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   for (std::size_t n = 0; n < std::min<std::size_t>(more, basis_.loops.size()); ++n)
     set_place(field_.to_mesh(basis_.loops[n].place), basis_.loops[n].size * field_.lattice().spacing,
               *message.add_tunnels());
+  if (message.advice().empty())
+    set_advice(core::shallow_lattice_advice(field_.lattice(), basis_.radius), message);
   if (!message.advice().empty()) return;
   core::BettiNumbers kept = sheet.lattice;
   kept.components -= sheet.fragments;

@@ -109,6 +109,15 @@ Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_
   return advice;
 }
 
+// Half the spacing shows features half as large.
+Advice with_more_points(const Lattice& lattice, const std::string& why) {
+  constexpr std::uint64_t kMore = 8, kRound = 10000;
+  const std::string points = std::to_string((kMore * lattice.points + kRound - 1) / kRound * kRound);
+  return {why + " Submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) + ", or with " +
+              points + " points.",
+          {{"points", points}}};
+}
+
 Advice on_significance(const ShockCensus& census, double significance) {
   const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
   return {"all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
@@ -127,14 +136,17 @@ Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_latt
     return base::counted(betti.components, "piece") + ", " + base::counted(betti.holes, "tunnel") + " and " +
            base::counted(betti.cavities, "void");
   };
-  // Half the spacing shows features half as large.
-  constexpr std::uint64_t kMore = 8, kRound = 10000;
-  const std::string points = std::to_string((kMore * lattice.points + kRound - 1) / kRound * kRound);
-  return {
-      "it has the " + words(of_lattice) + " of the sample points, the solid has " + words(solid) +
-          ": they are too few for something as thin as what differs. Submit with a smaller spacing than " +
-          base::rounded(lattice.spacing, 3) + ", or with " + points + " points.",
-      {{"points", points}}};
+  return with_more_points(lattice, "it has the " + words(of_lattice) +
+                                       " of the sample points, the solid has " + words(solid) +
+                                       ": they are too few for something as thin as what differs.");
+}
+
+Advice shallow_lattice_advice(const Lattice& lattice, std::span<const float> radius) {
+  if (std::any_of(radius.begin(), radius.end(), [](float r) { return r > 1; })) return {};
+  return with_more_points(
+      lattice,
+      "all sample points lie next to the surface, two across the solid where it is thickest: "
+      "too few to tell its middle.");
 }
 
 Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,

@@ -46,4 +46,8 @@ Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const 
 Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
                              const BettiNumbers& solid);
 
+/// That the lattice has nowhere more than two points across the solid, and how many points to try; else nothing.
+/// @param radius per sample point: see surface_distance().
+Advice shallow_lattice_advice(const Lattice& lattice, std::span<const float> radius);
+
 }  // namespace affskel::core

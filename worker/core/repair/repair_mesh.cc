@@ -274,7 +274,7 @@ double thickness_of(const std::vector<Vec3>& points) {
   return thickness == 0 ? 0 : thickness / norm(normal);
 }
 
-// Powers of lengths must not overflow, nor vanish; and what is flat would be wrapped by a film.
+// Powers of lengths must not overflow, nor vanish.
 void check_size(const Mesh& mesh) {
   if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "the mesh has no points");
   const double size = diagonal(mesh);
@@ -284,11 +284,14 @@ void check_size(const Mesh& mesh) {
                     "the mesh is " + short_text(size) +
                         " long, from corner to corner of its box; change the unit of length");
   }
-  if (thickness_of(mesh.points) < kFlattest * size) {
-    throw CoreError(
-        CoreError::Code::kBadInput,
-        "the mesh is flat: all points lie in one plane, so that it bounds no volume; give it a thickness, by "
-        "Blender's Solidify, say");
+}
+
+// Filled, what is flat would bound nothing; wrapped by an alpha that suits its length, a film.
+void check_thickness(const Mesh& mesh) {
+  if (thickness_of(mesh.points) < kFlattest * diagonal(mesh)) {
+    throw CoreError(CoreError::Code::kBadInput,
+                    "the mesh is flat: all points lie in one plane, so that it bounds no volume; give it a "
+                    "thickness, by Blender's Solidify, say, or wrap it by an alpha of your own");
   }
 }
 
@@ -296,6 +299,7 @@ void check_size(const Mesh& mesh) {
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   check_size(mesh);
+  if (options.alpha == 0 && options.longest_hole == 0) check_thickness(mesh);
   RepairedMesh result;
   if (options.kind == RepairKind::kWrap) {
     result = wrapped(mesh, options);

@@ -150,5 +150,14 @@ TEST(CoarseLatticeAdvice, NamesWhatDiffersAndMorePoints) {
   EXPECT_TRUE(is_plain(advice));
 }
 
+TEST(ShallowLatticeAdvice, IsForSolidsOfTwoPointsAcross) {
+  NormalBlock block({10, 10, 3}, 0.5);
+  const Advice advice = shallow_lattice_advice(block.lattice, std::vector<float>{0.5f, 0.5f});
+  EXPECT_TRUE(says(advice, "two across the solid")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "points", "10000"));
+  EXPECT_TRUE(is_plain(advice));
+  EXPECT_TRUE(shallow_lattice_advice(block.lattice, std::vector<float>{0.5f, 1.5f, 0.5f}).text.empty());
+}
+
 }  // namespace
 }  // namespace affskel::core
