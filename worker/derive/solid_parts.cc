@@ -135,12 +135,24 @@ class Parts {
     return 0.5 * core::norm(core::cross(at(1) - at(0), at(2) - at(0)));
   }
 
+  // In a plate many points have the greatest E.
   void add_greatest() {
     const std::vector<double>& erosion = field_.in_frame().erosion;
-    const auto greatest =
-        static_cast<std::uint32_t>(std::max_element(erosion.begin(), erosion.end()) - erosion.begin());
-    message_.set_greatest_erosion(erosion[greatest]);
-    append(field_.place(core::lattice_places(field_.lattice(), {&greatest, 1})[0]),
+    const double greatest = *std::max_element(erosion.begin(), erosion.end());
+    std::vector<std::uint32_t> having;
+    for (std::uint32_t p = 0; p < erosion.size(); ++p)
+      if (erosion[p] == greatest) having.push_back(p);
+    std::vector<core::Vec3> places;
+    core::Vec3 centre;
+    for (const core::LatticePlace& place : core::lattice_places(field_.lattice(), having)) {
+      places.push_back(field_.place(place));
+      centre = centre + (1.0 / static_cast<double>(having.size())) * places.back();
+    }
+    message_.set_greatest_erosion(greatest);
+    append(*std::min_element(places.begin(), places.end(),
+                             [&](const core::Vec3& a, const core::Vec3& b) {
+                               return core::norm(a - centre) < core::norm(b - centre);
+                             }),
            message_.mutable_greatest_place());
   }
 

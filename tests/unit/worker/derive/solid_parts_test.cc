@@ -43,6 +43,17 @@ TEST(DeriveParts, OfATorusIsOne) {
   EXPECT_EQ(solid.greatest_erosion(), greatest);
 }
 
+// Of the many points of a plate that have the greatest E.
+TEST(DeriveParts, TellTheMiddleAsThePlaceOfTheGreatestE) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.26);
+  const PreparedJob prepared(core::write_off(core::make_box(20, 20, 1)), params);
+  const v1::SolidParts solid = parts_of(prepared, finished_field(prepared));
+  const core::Vec3 centre = prepared.solid().centre;
+  EXPECT_NEAR(solid.greatest_place(0), centre.x, 0.26);
+  EXPECT_NEAR(solid.greatest_place(1), centre.y, 0.26);
+}
+
 // Three bars that cross at right angles in their middle: six limbs of the same length, and a heavy middle.
 TEST(DeriveParts, OfACrossAreItsArms) {
   const double arm = 10, half = 1.25;
