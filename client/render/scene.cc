@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "client/artifacts/spots.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
+#include "client/base/spots.h"
 #include "client/render/arrangement.h"
 #include "client/render/labels.h"
 #include "client/render/legend.h"

@@ -9,11 +9,11 @@
 #include <stdexcept>
 
 #include "client/artifacts/solid_parts.h"
-#include "client/artifacts/spots.h"
 #include "client/base/colour.h"
 #include "client/base/error.h"
 #include "client/base/mesh_box.h"
 #include "client/base/scale_words.h"
+#include "client/base/spots.h"
 #include "client/text/markup_text.h"
 #include "client/text/summary_text.h"
 #include "client/text/words.h"

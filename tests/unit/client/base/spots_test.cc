@@ -1,4 +1,4 @@
-#include "client/artifacts/spots.h"
+#include "client/base/spots.h"
 
 #include <gtest/gtest.h>
 
