@@ -9,16 +9,10 @@
 namespace affskel::core {
 namespace {
 
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // Of magnitude about 1 whatever the unit, so that products of three do not overflow.
 std::array<Vec3, 3> scaled_rows(const AffineMap& map, double& unit) {
   unit = 0;
-  for (const Vec3& row : map.rows) {
-    unit = std::max({unit, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
-  }
+  for (const Vec3& row : map.rows) unit = std::max(unit, largest_component(row));
   int exponent = 0;
   std::frexp(unit, &exponent);
   unit = std::ldexp(1.0, exponent);
@@ -139,7 +133,7 @@ Vec3 NormalMap::operator()(const Vec3& n) const {
   if (identity_) return n;
   const Vec3 mapped = {dot(cofactors_[0], n), dot(cofactors_[1], n), dot(cofactors_[2], n)};
   // Scaled first: squares of tiny or huge vectors would leave the range.
-  const double big = std::max({std::abs(mapped.x), std::abs(mapped.y), std::abs(mapped.z)});
+  const double big = largest_component(mapped);
   if (!(big > 0)) return {};
   const Vec3 w = {mapped.x / big, mapped.y / big, mapped.z / big};
   const double length = turned_ ? -norm(w) : norm(w);

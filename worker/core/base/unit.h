@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/base/vec3.h"
@@ -13,7 +12,7 @@ namespace affskel::core {
 
 /// The exponent of a vector's largest component, 0 for the zero vector: v = 2^exponent scaled_to_unit(v).
 inline int largest_exponent(const Vec3& v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const double largest = largest_component(v);
   return largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
 }
 

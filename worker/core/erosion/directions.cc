@@ -1,7 +1,5 @@
 #include "core/erosion/directions.h"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "base/number_text.h"
@@ -26,7 +24,7 @@ std::vector<Part> parse(std::string_view spec) {
 // As unit(), but for the last bits, which all fields depend on.  Scaled first: squares of tiny normals would
 // underflow.
 Vec3 direction_of(const Vec3& v) {
-  const double big = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const double big = largest_component(v);
   if (big == 0) return {};
   const Vec3 w{v.x / big, v.y / big, v.z / big};
   const double length = norm(w);

@@ -1,6 +1,5 @@
 #include "core/mesh/map_mesh.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -13,7 +12,7 @@ Mesh map_mesh(const AffineMap& map, const Mesh& mesh) {
   Mesh result = mesh;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const Vec3 p = result.points[v] = map(mesh.points[v]);
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    if (!is_finite(p)) {
       throw CoreError(CoreError::Code::kBadInput,
                       "the map takes vertex " + std::to_string(v) + " out of the range of a double");
     }

@@ -63,7 +63,7 @@ Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
     }
     const double x = gaussian.next(), y = gaussian.next(), z = gaussian.next();
     const Vec3 moved = mesh.points[v] + options.sigma * Vec3{x, y, z};
-    if (!std::isfinite(moved.x) || !std::isfinite(moved.y) || !std::isfinite(moved.z)) {
+    if (!is_finite(moved)) {
       throw CoreError(CoreError::Code::kBadInput,
                       "the noise takes vertex " + std::to_string(v) + " out of the range of a double");
     }

@@ -15,7 +15,7 @@ int lift_of(std::span<const Vec3> a, std::span<const Vec3> b) {
   constexpr int kTop = 500;
   double largest = 0;
   for (const std::span<const Vec3> set : {a, b}) {
-    for (const Vec3& p : set) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    for (const Vec3& p : set) largest = std::max(largest, largest_component(p));
   }
   return largest > 0 ? kTop - std::ilogb(largest) : 0;
 }

@@ -103,7 +103,7 @@ class SolidBuilder {
     const Mesh& mesh = solid_.mesh;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       const Vec3& p = mesh.points[v];
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+      if (is_finite(p)) continue;
       refuse("vertex " + std::to_string(v) + " has a coordinate that is not finite",
              v < vertex_line_.size() ? vertex_line_[v] : 0);
     }

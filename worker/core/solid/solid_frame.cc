@@ -57,7 +57,7 @@ Matrix3 with_ties_resolved(const OrderedAxes& ordered) {
 
 // Whether the first of the largest components is < 0.
 bool points_back(const Vec3& axis) {
-  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+  const double largest = largest_component(axis);
   for (int k = 0; k < 3; ++k) {
     if (std::abs(axis[k]) >= (1 - kAxisTie) * largest) return axis[k] < 0;
   }

@@ -26,16 +26,12 @@ Box widened(Box box, double by) {
   return box;
 }
 
-double largest(const Vec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 // Holds the arc that side pq draws on the unit sphere round v.  The arc lies within its rise of the chord.
 // Two triangles pqv and rsv, each with an area, have more in common than v only if their arcs meet.
 Box arc_box(const Vec3& v, const Vec3& p, const Vec3& q) {
   const Box everything = {{-1, -1, -1}, {1, 1, 1}};
   const Vec3 to_p = p - v, to_q = q - v;
-  const double size_p = largest(to_p), size_q = largest(to_q);
+  const double size_p = largest_component(to_p), size_q = largest_component(to_q);
   if (!(size_p > 0 && size_q > 0 && std::isfinite(size_p) && std::isfinite(size_q))) return everything;
   // The largest component first: squares must not leave the range of a double.
   const Vec3 a = {to_p.x / size_p, to_p.y / size_p, to_p.z / size_p};

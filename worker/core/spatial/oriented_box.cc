@@ -31,10 +31,7 @@ Vec3 unit_or(const Vec3& v, const Vec3& other, double least) {
 UnitTriangles::UnitTriangles(const Mesh& mesh) : mesh_(&mesh) {
   double largest = 0;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      const Vec3& p = mesh.points[v];
-      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
+    for (const std::uint32_t v : t) largest = std::max(largest, largest_component(mesh.points[v]));
   }
   int exponent = 0;
   std::frexp(largest, &exponent);

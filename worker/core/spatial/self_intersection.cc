@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <string>
 
 #include "core/base/error.h"
@@ -32,10 +31,7 @@ void check(const Mesh& mesh) {
       if (v >= mesh.points.size()) {
         refuse(i, v, "there are only " + std::to_string(mesh.points.size()) + " vertices");
       }
-      const Vec3& p = mesh.points[v];
-      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) {
-        refuse(i, v, "a coordinate is not finite");
-      }
+      if (!is_finite(mesh.points[v])) refuse(i, v, "a coordinate is not finite");
     }
   }
 }

@@ -51,10 +51,7 @@ double checked_alpha(const AlphaShapeOptions& options) {
 
 void check_finite(std::span<const Vec3> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3& p = points[i];
-    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) {
-      refuse("point " + std::to_string(i) + " has a coordinate that is not finite");
-    }
+    if (!is_finite(points[i])) refuse("point " + std::to_string(i) + " has a coordinate that is not finite");
   }
 }
 

@@ -1,7 +1,6 @@
 #include "core/text/off_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "base/number_text.h"
@@ -137,8 +136,7 @@ class OffReader {
     if (!homogeneous_) return p;
     const double w = coordinate(3);
     const Vec3 at{p.x / w, p.y / w, p.z / w};
-    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z))
-      fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " lies at infinity");
+    if (!is_finite(at)) fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " lies at infinity");
     return at;
   }
 

@@ -1,5 +1,4 @@
 #include <bit>
-#include <cmath>
 #include <string>
 
 #include "core/files/read/shape_parsers.h"
@@ -56,7 +55,7 @@ class BinaryOff {
     const std::string place = "vertex " + std::to_string(v);
     const auto coordinate = [&] { return double{std::bit_cast<float>(word(place))}; };
     const double x = coordinate(), y = coordinate(), z = coordinate();
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) fail_at(0, place + " is not finite");
+    if (!is_finite({x, y, z})) fail_at(0, place + " is not finite");
     for (unsigned i = 0; i < more_; ++i) word(place);
     file_.off.mesh.points.push_back({x, y, z});
   }

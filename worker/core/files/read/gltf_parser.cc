@@ -1,6 +1,5 @@
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -228,8 +227,7 @@ class Gltf {
     const char* at = from.data + i * from.stride;
     const Vec3 point =
         map({base::decode<float>(at), base::decode<float>(at + 4), base::decode<float>(at + 8)});
-    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z))
-      fail_at(0, place + ", " + numbered("vertex", i) + " is not finite");
+    if (!is_finite(point)) fail_at(0, place + ", " + numbered("vertex", i) + " is not finite");
     return point;
   }
 

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <string>
 
 #include "base/coding.h"
@@ -18,7 +17,7 @@ ShapeFile parse_binary(std::string_view bytes) {
         return double{base::decode<float>(bytes.data() + at + 12 + 12 * c + 4 * k)};
       };
       const Vec3 p{coordinate(0), coordinate(1), coordinate(2)};
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      if (!is_finite(p)) {
         fail_at(0,
                 "triangle " + std::to_string((at - kHeader) / kFacet) + " has a corner that is not finite");
       }

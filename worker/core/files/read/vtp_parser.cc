@@ -67,7 +67,7 @@ class VtpReader {
       fail_at(array.line, "points must have three coordinates");
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       const Vec3 point = {xyz[i], xyz[i + 1], xyz[i + 2]};
-      if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+      if (!is_finite(point)) {
         fail_at(array.line, "point " + std::to_string(i / 3) + " has a coordinate that is not finite");
       }
       file_.off.mesh.points.push_back(point);
