@@ -32,10 +32,7 @@ Vec3 direction_of(const Vec3& v) {
 }
 
 void add_triangles(const Solid& solid, DirectionSet& set) {
-  for (const Triangle& t : solid.mesh.triangles) {
-    const Vec3 &a = solid.mesh.points[t[0]], &b = solid.mesh.points[t[1]], &c = solid.mesh.points[t[2]];
-    set.push_back(-direction_of(cross(b - a, c - a)));
-  }
+  for (const Triangle& t : solid.mesh.triangles) set.push_back(-direction_of(twice_area(solid.mesh, t)));
 }
 
 void add_face(const Vec3& a, const Vec3& b, const Vec3& c, std::uint64_t f, DirectionSet& set) {

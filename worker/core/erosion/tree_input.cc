@@ -1,7 +1,6 @@
 #include "core/erosion/tree_input.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -74,8 +73,7 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
   area_vector.reserve(mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& c = mesh.triangles[t];
-    const std::array<Vec3, 3> p = {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
-    const Vec3 twice = cross(p[1] - p[0], p[2] - p[0]);
+    const Vec3 twice = twice_area(mesh, c);
     area_vector.push_back(0.5 * twice);
     surface_area += 0.5 * norm(twice);
     for (std::uint32_t v : c) vertex_solid[v] = s.shells[s.triangle_shell[original_triangle[t]]].solid;

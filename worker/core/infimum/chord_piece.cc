@@ -188,10 +188,8 @@ class PieceFinder::Work {
 
   bool passes_at(const Loop& loop, std::uint32_t vertex) const {
     const auto cuts = section_.cuts().subspan(loop.begin, loop.end - loop.begin);
-    return std::ranges::any_of(cuts, [&](const Cut& cut) {
-      const Triangle& corners = in_.mesh.triangles[cut.triangle()];
-      return corners[0] == vertex || corners[1] == vertex || corners[2] == vertex;
-    });
+    return std::ranges::any_of(
+        cuts, [&](const Cut& cut) { return uses(in_.mesh.triangles[cut.triangle()], vertex); });
   }
 
   std::uint64_t sides_of(std::uint32_t vertex) const {

@@ -158,7 +158,7 @@ void PieceInput::sum_up() {
                                   1);  // over the triangles of vertices before, in preorder
   for (const Triangle& c : mesh.triangles) {
     const Vec3& p = mesh.points[c[0]];
-    const Vec3 area = 0.5 * cross(mesh.points[c[1]] - p, mesh.points[c[2]] - p);
+    const Vec3 area = 0.5 * twice_area(mesh, c);
     faces.push_back({area,
                      {{quantised(kThird * dot(area, p)), quantised(kThird * area.x),
                        quantised(kThird * area.y), quantised(kThird * area.z)}}});

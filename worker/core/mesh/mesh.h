@@ -19,10 +19,25 @@ constexpr Segment ascending(std::uint32_t a, std::uint32_t b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+constexpr bool uses(const Triangle& triangle, std::uint32_t vertex) {
+  return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
+}
+
+/// Whether it names a vertex twice.
+constexpr bool is_collapsed(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 /// A triangle soup with shared vertices: plain data, no promise of being closed or manifold.
 struct Mesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;  ///< indices into points; counter-clockwise seen from outside
 };
+
+/// Of a triangle, as a vector: along its normal, outward.
+inline Vec3 twice_area(const Mesh& mesh, const Triangle& t) {
+  const Vec3& a = mesh.points[t[0]];
+  return cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
+}
 
 }  // namespace affskel::core

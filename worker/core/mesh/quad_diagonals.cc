@@ -20,15 +20,11 @@ struct Quad {
   std::uint32_t tip, from, far, to;
 };
 
-bool has(const Triangle& t, std::uint32_t v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
-
 Quad quad_of(const Triangle& first, const Triangle& second) {
   std::size_t tip = 0;
-  while (tip < 2 && has(second, first[tip])) ++tip;
+  while (tip < 2 && uses(second, first[tip])) ++tip;
   std::size_t far = 0;
-  while (far < 2 && has(first, second[far])) ++far;
+  while (far < 2 && uses(first, second[far])) ++far;
   return {first[tip], first[(tip + 1) % 3], second[far], first[(tip + 2) % 3]};
 }
 

@@ -27,8 +27,7 @@ struct StopVisitor : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
 std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   std::vector<Vec3> normals(mesh.points.size());
   for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.points[t[0]];
-    const Vec3 area = cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
+    const Vec3 area = twice_area(mesh, t);
     for (const std::uint32_t v : t) normals[v] = normals[v] + area;
   }
   for (Vec3& normal : normals) {

@@ -55,7 +55,7 @@ std::uint64_t join_near_points(const std::vector<Vec3>& points, std::vector<Tria
   if (joined == 0) return 0;
   for (Triangle& t : triangles)
     for (std::uint32_t& corner : t) corner = same.find(corner);
-  std::erase_if(triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  std::erase_if(triangles, is_collapsed);
   return joined;
 }
 

@@ -156,8 +156,6 @@ class SolidBuilder {
     drop_unused_points(mesh);
   }
 
-  static bool is_collapsed(const Triangle& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
-
   // Returns how many there were.
   std::size_t drop_collapsed() {
     Mesh& mesh = solid_.mesh;
@@ -210,9 +208,7 @@ class SolidBuilder {
     std::uint64_t count = 0;
     std::uint32_t first = 0;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& c = mesh.triangles[t];
-      const Vec3 n = cross(mesh.points[c[1]] - mesh.points[c[0]], mesh.points[c[2]] - mesh.points[c[0]]);
-      if (n == Vec3{} && count++ == 0) first = t;
+      if (twice_area(mesh, mesh.triangles[t]) == Vec3{} && count++ == 0) first = t;
     }
     if (count == 0) return;
     note(MeshNote::Severity::kWarning, "degenerate-triangles",

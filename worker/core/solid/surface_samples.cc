@@ -9,8 +9,7 @@ namespace affskel::core {
 namespace {
 
 double area_of(const Mesh& mesh, const Triangle& t) {
-  const Vec3& a = mesh.points[t[0]];
-  return 0.5 * norm(cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a));
+  return 0.5 * norm(twice_area(mesh, t));
 }
 
 double fraction(double x) {

@@ -33,8 +33,7 @@ inline int winding_round_line(const Mesh& mesh, const Triangle& t, const Vec3& q
 /// corner.
 inline double distance_along(const Mesh& mesh, const Triangle& t, const Vec3& q, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-  const Vec3 n = cross(b - a, c - a);
+  const Vec3 &a = mesh.points[t[0]], n = twice_area(mesh, t);
   if (n[axis] == 0) return a[axis] - q[axis];
   return a[axis] - ((q[u] - a[u]) * n[u] + (q[v] - a[v]) * n[v]) / n[axis] - q[axis];
 }

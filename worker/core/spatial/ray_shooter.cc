@@ -64,9 +64,9 @@ std::uint32_t RayShooter::first_exit_below(std::uint32_t vertex, const Vec3& d,
     Ray ray{mesh_.points[vertex], -d, slack};
     tree_.visit(ray, [&](std::uint32_t t) {
       const Triangle& corner = mesh_.triangles[t];
-      if (corner[0] == vertex || corner[1] == vertex || corner[2] == vertex || !accept(t)) return;
+      if (uses(corner, vertex) || !accept(t)) return;
       const Vec3 &a = mesh_.points[corner[0]], &b = mesh_.points[corner[1]], &c = mesh_.points[corner[2]];
-      if (dot(cross(b - a, c - a), d) < 0) ray.take(hit(ray.origin, ray.ray, a, b, c, slack), t);
+      if (dot(twice_area(mesh_, corner), d) < 0) ray.take(hit(ray.origin, ray.ray, a, b, c, slack), t);
     });
     if (ray.nearest != kNone) return ray.nearest;
   }

@@ -46,7 +46,7 @@ Turned shared_first(const Triangle& t, const Triangle& other) {
   Turned turned{};
   std::size_t from_back = 3;
   for (const std::uint32_t v : t) {
-    const bool common = v == other[0] || v == other[1] || v == other[2];
+    const bool common = uses(other, v);
     turned.corner[common ? turned.shared++ : --from_back] = v;
   }
   return turned;
@@ -63,8 +63,7 @@ class PairTest {
   PairTest(const Mesh& mesh, const std::vector<Box>& boxes) : mesh_(mesh), boxes_(boxes) {}
 
   bool degenerate(const Triangle& t) const {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] ||
-           CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
+    return is_collapsed(t) || CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
   }
 
   /// False only where the triangles surely meet in no more than their one shared vertex.  Cheap: in the

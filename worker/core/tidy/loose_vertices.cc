@@ -49,8 +49,7 @@ void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh) 
       around[l.vertex] = {};
     }
     for (const Triangle& t : triangles) {
-      const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-      const Vec3 normal = cross(b - a, c - a);
+      const Vec3 normal = twice_area(mesh, t);
       for (std::size_t k = 0; k < 3; ++k) {  // every edge is met once in this direction
         Surroundings& here = around[t[k]];
         here.sum = here.sum + mesh.points[t[(k + 1) % 3]];

@@ -118,8 +118,6 @@ class Tidier {
     return true;
   }
 
-  static bool uses(const Triangle& t, Index v) { return t[0] == v || t[1] == v || t[2] == v; }
-
   /// The link condition of a closed surface: the ends have only the two corners opposite to the edge as
   /// common neighbours, and these lose a triangle each without falling below three.
   bool keeps_topology(Index a, Index b) const {
@@ -143,7 +141,8 @@ class Tidier {
       if (quality(changed) < std::min(kSliver, quality(old)) && shortest_square(changed) >= limit_)
         return false;
       constexpr double kMinCosine = 0.5;
-      if (quality(old) > kSliver && !agree(twice_area(old), twice_area(changed), kMinCosine)) return false;
+      if (quality(old) > kSliver && !agree(twice_area(mesh_, old), twice_area(mesh_, changed), kMinCosine))
+        return false;
     }
     return true;
   }
@@ -169,20 +168,17 @@ class Tidier {
       return false;
     }
     const Triangle first{a, d, c}, second{d, b, c};
-    const Vec3 before = twice_area(mesh_.triangles[t]) + twice_area(other);
+    const Vec3 before = twice_area(mesh_, mesh_.triangles[t]) + twice_area(mesh_, other);
     constexpr double kMinCosine = 0.8;
     if (std::min(quality(first), quality(second)) <= quality(mesh_.triangles[t]) ||
-        !agree(before, twice_area(first), kMinCosine) || !agree(before, twice_area(second), kMinCosine)) {
+        !agree(before, twice_area(mesh_, first), kMinCosine) ||
+        !agree(before, twice_area(mesh_, second), kMinCosine)) {
       return false;
     }
     mesh_.triangles[t] = first;
     mesh_.triangles[*over] = second;
     for (Index v : {a, b, c, d}) claimed_[v] = 1;
     return true;
-  }
-
-  Vec3 twice_area(const Triangle& t) const {
-    return cross(mesh_.points[t[1]] - mesh_.points[t[0]], mesh_.points[t[2]] - mesh_.points[t[0]]);
   }
 
   double side_square(const Triangle& t, std::size_t k) const {
@@ -206,7 +202,7 @@ class Tidier {
 
   double quality(const Triangle& t) const {
     const double square = longest_square(t);
-    return square > 0 ? norm(twice_area(t)) / square : 0;
+    return square > 0 ? norm(twice_area(mesh_, t)) / square : 0;
   }
 
   Mesh mesh_;
