@@ -34,6 +34,17 @@ class DisjointSets {
     return true;
   }
 
+  /// Per member the number of its set, in the order of their least members.
+  std::vector<std::uint32_t> numbers(std::uint32_t& count) {
+    std::vector<std::uint32_t> number(parent_.size());
+    count = 0;
+    for (std::uint32_t member = 0; member < number.size(); ++member) {
+      const std::uint32_t least = find(member);
+      number[member] = least == member ? count++ : number[least];
+    }
+    return number;
+  }
+
  private:
   std::vector<std::uint32_t> parent_;
 };

@@ -11,11 +11,7 @@ SolidParts::SolidParts(const Solid& solid, const Lattice& lattice) : solid_(soli
   };
   DisjointSets sets(solid.solid_volume.size());
   for (const auto& [a, b] : solid.crossings) sets.unite(solid_of(a), solid_of(b));
-  // A set is named by its least member, which therefore has its number before the others ask for it.
-  for (std::uint32_t s = 0; s < solid.solid_volume.size(); ++s) {
-    const std::uint32_t least = sets.find(s);
-    part_of_solid_.push_back(least == s ? count_++ : part_of_solid_[least]);
-  }
+  part_of_solid_ = sets.numbers(count_);
   points_.assign(count_, 0);
   for (const LatticeRun& run : lattice.axis[2].runs) points_[of_triangle(run.low)] += run.length;
 }

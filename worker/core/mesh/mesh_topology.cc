@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 #include "core/mesh/edges.h"
 
@@ -72,7 +73,8 @@ class EdgeDefects {
     if (open_.count != 0 && crowded_.count != 0) message += "; ";
     if (crowded_.count != 0) message += tell(crowded_, "edge", " where more than two triangles meet");
     if (open_.count != 0)
-      message += "; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's Fill Holes";
+      message +=
+          "; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's Fill Holes";
     throw CoreError(CoreError::Code::kBadInput, message);
   }
 
@@ -220,24 +222,9 @@ std::uint32_t split_pinched_vertices(Mesh& mesh, const HalfEdges& mates) {
 }
 
 std::vector<std::uint32_t> connected_surfaces(const HalfEdges& mates, std::uint32_t& count) {
-  std::vector<std::uint32_t> surface(mates.size() / 3, kNone), queue;
-  count = 0;
-  for (std::uint32_t seed = 0; seed < surface.size(); ++seed) {
-    if (surface[seed] != kNone) continue;
-    surface[seed] = count;
-    queue.assign(1, seed);
-    for (std::size_t at = 0; at < queue.size(); ++at) {
-      for (std::uint32_t h = 3 * queue[at]; h < 3 * queue[at] + 3; ++h) {
-        std::uint32_t& other = surface[mates[h] / 3];
-        if (other == kNone) {
-          other = count;
-          queue.push_back(mates[h] / 3);
-        }
-      }
-    }
-    ++count;
-  }
-  return surface;
+  DisjointSets surfaces(mates.size() / 3);
+  for (std::uint32_t h = 0; h < mates.size(); ++h) surfaces.unite(h / 3, mates[h] / 3);
+  return surfaces.numbers(count);
 }
 
 }  // namespace affskel::core
