@@ -54,7 +54,7 @@ class FourTree::Builder {
   }
 
   void put(Node& node, std::uint32_t place, const Box& box) const {
-    const Vec3 middle = 0.5 * (box.lowest() + box.highest()), half = 0.5 * box.sides();
+    const Vec3 middle = box.middle(), half = 0.5 * box.sides();
     for (std::size_t k = 0; k < 3; ++k) {
       node.boxes.centre[k][place] = static_cast<float>(middle[static_cast<int>(k)]);
       node.boxes.half[k][place] = kLeastSide + std::nextafter(static_cast<float>(half[static_cast<int>(k)]),

@@ -216,7 +216,7 @@ FrameBox box_in(const Solid& solid, const Matrix3& f) {
   const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
   Box box;
   for (const Vec3& p : solid.mesh.points) box.include(in_frame(p));
-  return {solid.scale() * box.sides(), f * (0.5 * (box.lowest() + box.highest()))};
+  return {solid.scale() * box.sides(), f * box.middle()};
 }
 
 // The lattice of a spacing before its points are found.

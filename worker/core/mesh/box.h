@@ -32,6 +32,8 @@ struct Box {
   Vec3 lowest() const { return {low[0], low[1], low[2]}; }
   Vec3 highest() const { return {high[0], high[1], high[2]}; }
   Vec3 sides() const { return highest() - lowest(); }
+  Vec3 middle() const { return 0.5 * (lowest() + highest()); }
+  double diagonal() const { return norm(sides()); }
   /// The axis of the longest side, the first of equal ones.
   std::size_t longest_axis() const;
   double longest_side() const { return high[longest_axis()] - low[longest_axis()]; }

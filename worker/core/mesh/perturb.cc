@@ -45,7 +45,7 @@ class Gaussian {
 
 double box_diagonal(const Mesh& mesh) {
   if (mesh.points.empty()) return 0;
-  return norm((mesh.triangles.empty() ? box_of(mesh.points) : box_of(mesh)).sides());
+  return (mesh.triangles.empty() ? box_of(mesh.points) : box_of(mesh)).diagonal();
 }
 
 Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {

@@ -63,8 +63,8 @@ class Surfacing {
  public:
   Surfacing(std::span<const Vec3> points, ExecutionContext* context) : context_(context) {
     const Box box = box_of(points);
-    centre_ = 0.5 * (box.lowest() + box.highest());
-    unit_ = norm(box.sides());
+    centre_ = box.middle();
+    unit_ = box.diagonal();
     std::vector<Point> places;
     for (const Vec3& p : points) {
       const Vec3 at = (1 / unit_) * (p - centre_);

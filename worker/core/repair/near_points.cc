@@ -11,7 +11,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kNearOfDiagonal = 1e-6, kNearOfEdge = 1e-2;
+constexpr double kNearOfEdge = 1e-2;
 
 // An end of open edges, and how far from it another may lie.
 struct OpenEnd {
@@ -28,7 +28,7 @@ std::vector<OpenEnd> open_ends(const std::vector<Vec3>& points, const std::vecto
     const double length = norm(points[high] - points[low]);
     for (const std::uint32_t end : {low, high}) shortest[end] = std::min(shortest[end], length);
   });
-  const double most = kNearOfDiagonal * norm(box_of(points).sides());
+  const double most = kNearOfDiagonal * box_of(points).diagonal();
   std::vector<OpenEnd> ends;
   for (std::uint32_t p = 0; p < points.size(); ++p)
     if (shortest[p] < none) ends.push_back({p, std::min(most, kNearOfEdge * shortest[p])});

@@ -41,7 +41,7 @@ std::string place_text(const Vec3& p) {
 }
 
 double diagonal(const Mesh& mesh) {
-  return norm(box_of(mesh.points).sides());
+  return box_of(mesh.points).diagonal();
 }
 
 class Mending {

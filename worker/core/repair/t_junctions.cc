@@ -5,12 +5,13 @@
 
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
+#include "core/repair/near_points.h"
 #include "core/spatial/box_tree.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr double kOfDiagonal = 1e-6, kOfEdge = 1e-3;
+constexpr double kOfEdge = 1e-3;
 constexpr int kEdgesOfATriangle = 3;  // it may have junctions on each
 
 struct OpenEdge {
@@ -107,7 +108,7 @@ class Junctions {
 }  // namespace
 
 std::uint64_t split_t_junctions(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
-  const double tolerance = kOfDiagonal * norm(box_of(points).sides());
+  const double tolerance = kNearOfDiagonal * box_of(points).diagonal();
   std::uint64_t found = 0;
   for (int round = 0; round < kEdgesOfATriangle; ++round) {
     std::vector<Triangle> result;

@@ -119,7 +119,7 @@ std::vector<LatticeLoop> loops_of(const Lattice& lattice, const DualComplex& com
   for (const CellLoop& loop : shortest_loops(complex, thinned, kMaxLoops, context)) {
     Box box;
     for (const CellPlace& cell : cells_of_vertices(lattice, loop.vertices)) box.include(middle_of(cell));
-    result.push_back({lattice.spacing * (0.5 * (box.lowest() + box.highest())), norm(box.sides())});
+    result.push_back({lattice.spacing * box.middle(), box.diagonal()});
   }
   return result;
 }
