@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/repair/surface_mesh.h"
+#include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {
 namespace {

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "core/repair/orient_soup.h"
-#include "core/repair/surface_mesh.h"
+#include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {
 namespace {

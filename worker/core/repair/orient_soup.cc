@@ -13,8 +13,8 @@
 #include "core/mesh/touching_edges.h"
 #include "core/mesh/unused_points.h"
 #include "core/repair/near_points.h"
-#include "core/repair/surface_mesh.h"
 #include "core/repair/t_junctions.h"
+#include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {
 namespace {

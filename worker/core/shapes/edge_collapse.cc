@@ -1,7 +1,6 @@
 #include "core/shapes/edge_collapse.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -9,45 +8,12 @@
 
 #include <cstdint>
 
-#include "core/base/error.h"
+#include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {
 namespace {
 
 namespace simplification = CGAL::Surface_mesh_simplification;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-SurfaceMesh to_cgal(const Mesh& mesh) {
-  SurfaceMesh out;
-  out.reserve(static_cast<SurfaceMesh::size_type>(mesh.points.size()),
-              static_cast<SurfaceMesh::size_type>(mesh.triangles.size() * 3 / 2),
-              static_cast<SurfaceMesh::size_type>(mesh.triangles.size()));
-  for (const Vec3& p : mesh.points) out.add_vertex({p.x, p.y, p.z});
-  using Vertex = SurfaceMesh::Vertex_index;
-  for (const Triangle& t : mesh.triangles) {
-    if (out.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == SurfaceMesh::null_face()) {
-      throw CoreError(CoreError::Code::kInternal, "edge collapse: the mesh is not manifold");
-    }
-  }
-  return out;
-}
-
-Mesh from_cgal(SurfaceMesh& mesh) {
-  mesh.collect_garbage();
-  Mesh out;
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    out.points.push_back({p.x(), p.y(), p.z()});
-  }
-  for (const auto f : mesh.faces()) {
-    Triangle t{};
-    std::size_t k = 0;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) t[k++] = v;
-    out.triangles.push_back(t);
-  }
-  return out;
-}
 
 class FaceCountStop {
  public:
@@ -69,7 +35,7 @@ class Placement {
   Placement(std::size_t faces, StopCheck& stop) : faces_(faces), stop_(&stop) {}
 
   template <typename Profile>
-  boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
+  boost::optional<Point> operator()(const Profile& profile) const {
     stop_->did(kOperations);
     const SurfaceMesh& mesh = profile.surface_mesh();
     const bool border_edge = mesh.is_border(profile.v0_v1()) || mesh.is_border(profile.v1_v0());
@@ -80,7 +46,7 @@ class Placement {
       return place->x() > 0 ? place : boost::none;
     }
     if (makes_chord(profile)) return boost::none;
-    return Kernel::Point_3(0, place->y(), place->z());
+    return Point(0, place->y(), place->z());
   }
 
  private:
@@ -115,11 +81,12 @@ class Placement {
 
 Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context) {
   StopCheck stop(context);
-  SurfaceMesh surface = to_cgal(mesh);
+  SurfaceMesh surface = surface_mesh_of(mesh);
   simplification::edge_collapse(surface, FaceCountStop(triangles),
                                 CGAL::parameters::get_cost(simplification::LindstromTurk_cost<SurfaceMesh>())
                                     .get_placement(Placement(triangles, stop)));
-  return from_cgal(surface);
+  surface.collect_garbage();
+  return mesh_of(surface);
 }
 
 }  // namespace affskel::core

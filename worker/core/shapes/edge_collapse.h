@@ -16,7 +16,7 @@ namespace affskel::core {
 ///
 /// The result has more triangles when no edge is left that may be collapsed, and may cross itself: check
 /// both.  A function of its arguments alone.
-/// @throws CoreError kInternal when the mesh is not manifold, kCancelled when the context asks to stop.
+/// @throws CoreError kBadInput when the mesh is not manifold, kCancelled when the context asks to stop.
 Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -1,4 +1,4 @@
-#include "core/repair/surface_mesh.h"
+#include "core/shapes/surface_mesh.h"
 
 #include <CGAL/boost/graph/iterator.h>
 
@@ -10,6 +10,9 @@ namespace affskel::core {
 
 SurfaceMesh surface_mesh_of(const Mesh& mesh) {
   SurfaceMesh surface;
+  using Size = SurfaceMesh::size_type;
+  surface.reserve(static_cast<Size>(mesh.points.size()), static_cast<Size>(mesh.triangles.size() * 3 / 2),
+                  static_cast<Size>(mesh.triangles.size()));
   std::vector<SurfaceMesh::Vertex_index> vertices;
   vertices.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) vertices.push_back(surface.add_vertex(Point(p.x, p.y, p.z)));

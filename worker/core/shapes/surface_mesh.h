@@ -7,7 +7,7 @@
 
 namespace affskel::core {
 
-// CGAL's mesh; for the sources of this folder alone, which need CGAL anyway.
+// CGAL's mesh; for sources that need CGAL anyway.
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
