@@ -5,14 +5,12 @@
 
 #include "core/base/cube_root.h"
 #include "core/base/unit.h"
+#include "core/lattice/lattice_coordinates.h"
 
 namespace affskel::core {
 Matrix3 frame_matrix(const Lattice& lattice) {
   const Matrix3& axes = lattice.grid.axes;
-  const bool parallel = axes[0].y == 0 && axes[0].z == 0 && axes[1].x == 0 && axes[1].z == 0 &&
-                        axes[2].x == 0 && axes[2].y == 0 && axes[0].x > 0 && axes[0].x == axes[1].y &&
-                        axes[0].x == axes[2].z;
-  if (parallel) return kIdentity3;
+  if (is_cubic(lattice.grid)) return kIdentity3;
   const double step = cube_root(std::abs(determinant(axes)));
   return (1 / step) * axes;
 }

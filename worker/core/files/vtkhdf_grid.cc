@@ -91,10 +91,6 @@ hid_t stored_type(GridType type) {
                                     : H5T_STD_U8LE;
 }
 
-bool is_cubic(const LatticeGrid& grid) {
-  return is_upright(grid) && grid.axes[0].x == grid.axes[1].y && grid.axes[1].y == grid.axes[2].z;
-}
-
 // The axes divided by the lattice's spacing, the cube root of the cell's volume.
 void write_frame(hid_t root, const LatticeGrid& grid) {
   const Matrix3 axes = grid.axes;

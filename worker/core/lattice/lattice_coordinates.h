@@ -34,6 +34,11 @@ inline bool is_upright(const LatticeGrid& grid) {
          z.z > 0;
 }
 
+/// Whether they are so, and of one length.
+inline bool is_cubic(const LatticeGrid& grid) {
+  return is_upright(grid) && grid.axes[0].x == grid.axes[1].y && grid.axes[0].x == grid.axes[2].z;
+}
+
 /// Scaled coordinates of the solid for real lattice indices.
 inline Vec3 scaled_place(const Lattice& lattice, const Vec3& indices) {
   const LatticeGrid& grid = lattice.grid;

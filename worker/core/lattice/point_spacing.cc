@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "core/base/plain_math.h"
+#include "core/solid/surface_samples.h"
 
 namespace affskel::core {
 namespace {
@@ -23,16 +24,6 @@ constexpr int kTrials = 24;           // to either side of the spacing of single
 constexpr double kTrialStep = 0.004;  // between two of them, in the logarithm: 10 % in all
 
 constexpr double kFoilRatio = 4;  // of the spacing to the mean thickness of a foil
-
-// Area of the surface.
-double scaled_area(const Solid& solid) {
-  const std::vector<Vec3>& p = solid.mesh.points;
-  double sum = 0;
-  for (const Triangle& t : solid.mesh.triangles) {
-    sum += 0.5 * norm(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-  }
-  return sum;
-}
 
 class SpacingSearch {
  public:
@@ -63,7 +54,8 @@ class SpacingSearch {
 
  private:
   double single_layer_spacing() const {
-    return solid_.scale() * std::sqrt(scaled_area(solid_) / 2 / static_cast<double>(options_.target_points));
+    return solid_.scale() *
+           std::sqrt(surface_area(solid_.mesh) / 2 / static_cast<double>(options_.target_points));
   }
 
   void try_single_layers() {
@@ -99,7 +91,7 @@ class SpacingSearch {
 
 bool is_foil(const Solid& solid, double spacing) {
   const double scaled_volume = std::ldexp(solid.volume, -3 * solid.exponent);
-  return spacing > kFoilRatio * solid.scale() * 2 * scaled_volume / scaled_area(solid);
+  return spacing > kFoilRatio * solid.scale() * 2 * scaled_volume / surface_area(solid.mesh);
 }
 
 bool is_near(std::uint64_t points, std::uint64_t target) {

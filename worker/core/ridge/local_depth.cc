@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "core/base/unit.h"
+#include "core/collapse/shortest_ways.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/ridge/row_band.h"
 
@@ -68,8 +68,6 @@ class Relaxation {
 
   // Looks at the 13 neighbours on one side.
   void relax(const LatticeRun& run, const Rows& rows, std::uint32_t n, std::int32_t sign) {
-    static constexpr std::array<float, 4> kLength = {0, 1, std::numbers::sqrt2_v<float>,
-                                                     std::numbers::sqrt3_v<float>};
     const auto k = static_cast<std::int32_t>(run.start[2] + n);
     float least = depth_[run.first + n];
     const float old = least;
@@ -79,7 +77,7 @@ class Relaxation {
         if (at < row->begin || at >= row->end) continue;
         const std::uint32_t rank = rank_[static_cast<std::size_t>(row->offset + at)];
         if (rank == kOutside) continue;
-        least = std::min(least, depth_[rank] + kLength[static_cast<std::size_t>(steps + std::abs(c))]);
+        least = std::min(least, depth_[rank] + kStepLength[static_cast<std::size_t>(steps + std::abs(c))]);
       }
     }
     if (least == old) return;
