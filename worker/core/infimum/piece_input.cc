@@ -31,40 +31,25 @@ DoubleSum restored(std::uint64_t value) {
   return {hi / kUnit, lo / kUnit};
 }
 
-// The vertices in preorder of trees that are found breadth first, so that their branches stay short.
-struct Preorder {
-  std::vector<std::uint32_t> order, parent;
-};
-
-Preorder preorder_of(const Mesh& mesh) {
-  const Adjacency around = neighbours(mesh.points.size(), mesh.triangles);
-  Preorder result{{}, std::vector<std::uint32_t>(mesh.points.size(), PieceInput::kNone)};
-  std::vector<std::uint32_t> first_child(mesh.points.size(), PieceInput::kNone),
-      next_sibling(mesh.points.size(), PieceInput::kNone);
-  std::vector<std::uint32_t> queue, stack;
-  for (std::uint32_t root = 0; root < mesh.points.size(); ++root) {
-    if (result.parent[root] != PieceInput::kNone) continue;
-    result.parent[root] = root;
-    queue.assign(1, root);
-    for (std::size_t at = 0; at < queue.size(); ++at) {
-      const std::uint32_t v = queue[at];
-      for (const std::uint32_t child : around[v]) {
-        if (result.parent[child] != PieceInput::kNone) continue;
-        result.parent[child] = v;
-        next_sibling[child] = first_child[v];
-        first_child[v] = child;
-        queue.push_back(child);
-      }
-    }
+// The vertices in preorder.
+std::vector<std::uint32_t> preorder_of(const BreadthFirstTrees& trees) {
+  const std::vector<std::uint32_t>& parent = trees.parent;
+  std::vector<std::uint32_t> first_child(parent.size(), PieceInput::kNone),
+      next_sibling(parent.size(), PieceInput::kNone), order, stack;
+  for (const std::uint32_t v : trees.order) {
+    if (parent[v] != v) next_sibling[v] = std::exchange(first_child[parent[v]], v);
+  }
+  for (std::uint32_t root = 0; root < parent.size(); ++root) {
+    if (parent[root] != root) continue;
     stack.assign(1, root);
     while (!stack.empty()) {
       const std::uint32_t v = stack.back();
       stack.pop_back();
-      result.order.push_back(v);
+      order.push_back(v);
       for (std::uint32_t c = first_child[v]; c != PieceInput::kNone; c = next_sibling[c]) stack.push_back(c);
     }
   }
-  return result;
+  return order;
 }
 
 }  // namespace
@@ -122,17 +107,19 @@ void PieceInput::number_anew(const Solid& solid) {
 }
 
 void PieceInput::plant_trees() {
-  Preorder vertices = preorder_of(mesh);
-  parent_ = std::move(vertices.parent);
+  // Breadth first, so that their branches stay short.
+  BreadthFirstTrees trees = breadth_first_trees(mesh.points.size(), mesh.triangles);
+  const std::vector<std::uint32_t> order = preorder_of(trees);
+  parent_ = std::move(trees.parent);
   branches.resize(mesh.points.size());
   shell_of.resize(mesh.points.size());
-  for (std::uint32_t i = 0; i < vertices.order.size(); ++i) {
-    const std::uint32_t v = vertices.order[i];
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const std::uint32_t v = order[i];
     branches[v] = {i, 1};
     if (parent_[v] == v) shells.push_back({v, 0, {}});
     shell_of[v] = static_cast<std::uint32_t>(shells.size() - 1);
   }
-  for (auto v = vertices.order.rbegin(); v != vertices.order.rend(); ++v) {
+  for (auto v = order.rbegin(); v != order.rend(); ++v) {
     if (parent_[*v] != *v) branches[parent_[*v]].count += branches[*v].count;
   }
 }

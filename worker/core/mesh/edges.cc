@@ -44,6 +44,25 @@ Adjacency neighbours(std::size_t points, std::span<const Segment> segments) {
           }};
 }
 
+BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triangle> triangles) {
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  const Adjacency around = neighbours(points, triangles);
+  BreadthFirstTrees trees{{}, std::vector<std::uint32_t>(points, kNone)};
+  const auto reach = [&](std::uint32_t vertex, std::uint32_t from) {
+    if (trees.parent[vertex] != kNone) return;
+    trees.parent[vertex] = from;
+    trees.order.push_back(vertex);
+  };
+  std::size_t at = 0;
+  for (std::uint32_t root = 0; root < points; ++root) {
+    reach(root, root);
+    for (; at < trees.order.size(); ++at) {
+      for (const std::uint32_t to : around[trees.order[at]]) reach(to, trees.order[at]);
+    }
+  }
+  return trees;
+}
+
 Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles) {
   return {points, [&](const auto& put) {
             for (std::uint32_t t = 0; t < triangles.size(); ++t)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/base/groups.h"
 #include "core/base/parallel.h"
@@ -55,6 +56,13 @@ Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles);
 
 /// Of every vertex the other ends of its segments, in their order.
 Adjacency neighbours(std::size_t points, std::span<const Segment> segments);
+
+/// Breadth first trees over the vertices, one for each connected surface, from its first vertex on.
+struct BreadthFirstTrees {
+  std::vector<std::uint32_t> order;   ///< of the vertices, tree by tree
+  std::vector<std::uint32_t> parent;  ///< per vertex; of a root itself
+};
+BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triangle> triangles);
 
 /// The triangles of every vertex, ascending.
 Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/base/disjoint_sets.h"
 #include "core/mesh/edges.h"
@@ -10,25 +11,14 @@
 namespace affskel::core {
 namespace {
 
-// Breadth first trees over the vertices of a mesh, one for each surface.
+// Ways between the vertices of a mesh.
 class Trees {
  public:
-  explicit Trees(const Mesh& mesh) : parent_(mesh.points.size(), kNone), depth_(mesh.points.size(), 0) {
-    const Adjacency beside = neighbours(mesh.points.size(), mesh.triangles);
-    std::vector<std::uint32_t> queue;
-    for (std::uint32_t root = 0; root < parent_.size(); ++root) {
-      if (parent_[root] != kNone) continue;
-      parent_[root] = root;
-      queue.assign(1, root);
-      for (std::size_t next = 0; next < queue.size(); ++next) {
-        for (const std::uint32_t to : beside[queue[next]]) {
-          if (parent_[to] != kNone) continue;
-          parent_[to] = queue[next];
-          depth_[to] = depth_[queue[next]] + 1;
-          queue.push_back(to);
-        }
-      }
-    }
+  explicit Trees(const Mesh& mesh) : depth_(mesh.points.size(), 0) {
+    BreadthFirstTrees trees = breadth_first_trees(mesh.points.size(), mesh.triangles);
+    parent_ = std::move(trees.parent);
+    for (const std::uint32_t v : trees.order)
+      if (parent_[v] != v) depth_[v] = depth_[parent_[v]] + 1;
   }
 
   bool has_edge(std::uint32_t a, std::uint32_t b) const { return parent_[a] == b || parent_[b] == a; }
@@ -45,8 +35,6 @@ class Trees {
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   std::vector<std::uint32_t> parent_, depth_;  // per vertex
 };
 
