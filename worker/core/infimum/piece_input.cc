@@ -12,6 +12,7 @@
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/mesh_topology.h"
+#include "core/mesh/unused_points.h"
 
 namespace affskel::core {
 namespace {
@@ -84,20 +85,14 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
 
 void PieceInput::number_anew(const Solid& solid) {
   const std::vector<std::uint32_t> triangle_order = FourTree().build(boxes_of(solid.mesh));
-  std::vector<std::uint32_t> number(solid.mesh.points.size(), kNone), triangle_number(triangle_order.size());
-  mesh.points.reserve(number.size());
-  mesh.triangles.reserve(triangle_order.size());
+  std::vector<std::uint32_t> triangle_number(triangle_order.size());
+  Mesh in_order{solid.mesh.points, {}};
+  in_order.triangles.reserve(triangle_order.size());
   for (const std::uint32_t t : triangle_order) {
-    triangle_number[t] = static_cast<std::uint32_t>(mesh.triangles.size());
-    Triangle& c = mesh.triangles.emplace_back(solid.mesh.triangles[t]);
-    for (std::uint32_t& v : c) {
-      if (number[v] == kNone) {
-        number[v] = static_cast<std::uint32_t>(mesh.points.size());
-        mesh.points.push_back(solid.mesh.points[v]);
-      }
-      v = number[v];
-    }
+    triangle_number[t] = static_cast<std::uint32_t>(in_order.triangles.size());
+    in_order.triangles.push_back(solid.mesh.triangles[t]);
   }
+  mesh = numbered_by_first_use(in_order);
   plant_trees();
   for (std::uint32_t t = 0; t < triangle_order.size(); ++t) {
     shells[shell_of[mesh.triangles[t][0]]].solid =

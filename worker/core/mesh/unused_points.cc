@@ -24,4 +24,21 @@ std::vector<std::uint32_t> drop_unused_points(Mesh& mesh) {
   return dropped;
 }
 
+Mesh numbered_by_first_use(const Mesh& mesh) {
+  constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> number(mesh.points.size(), kUnused);
+  Mesh out;
+  out.triangles = mesh.triangles;
+  for (Triangle& t : out.triangles) {
+    for (std::uint32_t& v : t) {
+      if (number[v] == kUnused) {
+        number[v] = static_cast<std::uint32_t>(out.points.size());
+        out.points.push_back(mesh.points[v]);
+      }
+      v = number[v];
+    }
+  }
+  return out;
+}
+
 }  // namespace affskel::core

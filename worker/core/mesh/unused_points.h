@@ -11,4 +11,7 @@ namespace affskel::core {
 /// @return the indices that the points taken out had, ascending.
 std::vector<std::uint32_t> drop_unused_points(Mesh& mesh);
 
+/// The mesh with its vertices numbered by their first use, the unused ones left out.
+Mesh numbered_by_first_use(const Mesh& mesh);
+
 }  // namespace affskel::core

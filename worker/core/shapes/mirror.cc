@@ -2,35 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 #include <utility>
+
 #include <vector>
+#include "core/mesh/unused_points.h"
 
 namespace affskel::core {
 namespace {
-
-constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-
-/// The mesh with its vertices numbered by their first use, the unused ones left out.  Not
-/// drop_unused_points(): which of two equal edges is collapsed first goes by these numbers, and with it the
-/// demo body's bytes.
-Mesh numbered_by_first_use(const Mesh& mesh) {
-  std::vector<std::uint32_t> index(mesh.points.size(), kUnused);
-  Mesh out;
-  for (const Triangle& t : mesh.triangles) {
-    Triangle renamed{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (index[t[k]] == kUnused) {
-        index[t[k]] = static_cast<std::uint32_t>(out.points.size());
-        out.points.push_back(mesh.points[t[k]]);
-      }
-      renamed[k] = index[t[k]];
-    }
-    out.triangles.push_back(renamed);
-  }
-  return out;
-}
 
 /// The vertices where edges cross the plane, one per edge.
 class Crossings {
@@ -82,6 +61,8 @@ Mesh positive_x_half(Mesh mesh, double snap) {
     if (reaches) add_clipped(t, mesh.points, crossings, kept);
   }
   mesh.triangles = std::move(kept);
+  // Not drop_unused_points(): which of two equal edges is collapsed first goes by these numbers, and with it the
+  // demo body's bytes.
   return numbered_by_first_use(mesh);
 }
 
