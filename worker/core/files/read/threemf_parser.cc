@@ -73,8 +73,6 @@ class Model final : public XmlHandler {
     }
     return Next::kReadOn;
   }
-  Next close(std::string_view, std::uint64_t) override { return Next::kReadOn; }
-  void text(std::string_view, bool) override {}
 
   ShapeFile take() {
     ShapeFile file;
@@ -152,8 +150,6 @@ class Relationships final : public XmlHandler {
     if (element.attribute("Type").ends_with("/3dmodel")) model = element.attribute("Target");
     return Next::kReadOn;
   }
-  Next close(std::string_view, std::uint64_t) override { return Next::kReadOn; }
-  void text(std::string_view, bool) override {}
 
   std::string model = "/3D/3dmodel.model";
 };

@@ -26,11 +26,11 @@ class XmlHandler {
   virtual ~XmlHandler() = default;
   /// After kStop, here and below, nothing behind the tag is looked at: it need not be XML.
   virtual Next open(const XmlElement& element) = 0;
-  /// The end of an element, also of an empty one.  @param line of its tag.
-  virtual Next close(std::string_view name, std::uint64_t line) = 0;
+  /// The end of an element, also of an empty one, with the line of its tag.
+  virtual Next close(std::string_view /*name*/, std::uint64_t /*line*/) { return Next::kReadOn; }
   /// A piece of text, also of a CDATA section; references are replaced.
-  /// @param stays whether it lies in the bytes that are read; otherwise it is gone after the call.
-  virtual void text(std::string_view text, bool stays) = 0;
+  /// `stays`: it lies in the bytes that are read; otherwise it is gone after the call.
+  virtual void text(std::string_view /*text*/, bool /*stays*/) {}
 };
 
 /// How the reading of an XML text ended.
