@@ -24,6 +24,8 @@ inline Kind kind_of(char c) {
   return kKinds[static_cast<unsigned char>(c)];
 }
 
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
 }  // namespace
 
 bool TextRows::next() {
@@ -63,16 +65,11 @@ void TextRows::split_carefully(std::string_view text) {
     fail_at_line(line_, "a carriage return inside the line: line ends of two kinds");
   }
   text_ = text;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(" \t\v\f", at)) != std::string_view::npos) {
-    const std::size_t stop = std::min(text.find_first_of(" \t\v\f", at), text.size());
-    words_.push_back(text.substr(at, stop - at));
-    at = stop;
-  }
+  TextWords words(text);
+  for (std::string_view word = words.next(); !word.empty(); word = words.next()) words_.push_back(word);
 }
 
 std::string_view TextWords::next() {
-  constexpr std::string_view kBlanks = " \t\r\n\v\f";
   const std::size_t begin = std::min(rest_.find_first_not_of(kBlanks), rest_.size());
   line_ += static_cast<std::uint64_t>(std::count(rest_.data(), rest_.data() + begin, '\n'));
   const std::size_t end = std::min(rest_.find_first_of(kBlanks, begin), rest_.size());
@@ -89,6 +86,11 @@ std::string quoted_excerpt(std::string_view text) {
   std::string shown = "'";
   for (char c : text.substr(0, 40)) shown.push_back(c >= ' ' && c < 127 ? c : '?');
   return shown + (text.size() > 40 ? "...'" : "'");
+}
+
+std::string_view without_blanks(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
 std::uint64_t parse_count(std::string_view word, std::uint64_t line, const char* what) {

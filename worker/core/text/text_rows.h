@@ -63,6 +63,9 @@ class TextWords {
 /// An excerpt of a file in quotes, for a message: short, and printable whatever the bytes are.
 std::string quoted_excerpt(std::string_view text);
 
+/// The text without blanks and line breaks around it.
+std::string_view without_blanks(std::string_view text);
+
 /// @param what names the number in the message. @throws CoreError kBadInput unless it is a whole number >= 0.
 std::uint64_t parse_count(std::string_view word, std::uint64_t line, const char* what);
 

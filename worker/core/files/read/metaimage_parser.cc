@@ -9,6 +9,7 @@
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 

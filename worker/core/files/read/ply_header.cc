@@ -77,16 +77,11 @@ class HeaderReader {
   bool next() {
     const std::size_t end = rest_.find('\n');
     if (end == std::string_view::npos) return false;
-    std::string_view row = rest_.substr(0, end);
+    TextWords row(rest_.substr(0, end));
     rest_ = rest_.substr(end + 1);
     ++header_.lines;
-    if (!row.empty() && row.back() == '\r') row.remove_suffix(1);
     words_.clear();
-    for (std::size_t at = 0; (at = row.find_first_not_of(" \t", at)) != std::string_view::npos;) {
-      const std::size_t stop = std::min(row.find_first_of(" \t", at), row.size());
-      words_.push_back(row.substr(at, stop - at));
-      at = stop;
-    }
+    for (std::string_view word = row.next(); !word.empty(); word = row.next()) words_.push_back(word);
     return true;
   }
 

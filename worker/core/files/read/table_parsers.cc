@@ -9,19 +9,11 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::string_view kBlanksInLine = " \t\v\f";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanksInLine);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanksInLine) - first + 1);
-}
-
 std::vector<std::string_view> fields_of(std::string_view row) {
   std::vector<std::string_view> fields;
   for (std::size_t at = 0;;) {
     const std::size_t comma = row.find(',', at);
-    fields.push_back(trimmed(row.substr(at, comma - at)));
+    fields.push_back(without_blanks(row.substr(at, comma - at)));
     if (comma == std::string_view::npos) return fields;
     at = comma + 1;
   }
@@ -96,7 +88,6 @@ ShapeFile parse_plain(std::string_view bytes, const std::vector<std::vector<std:
 }  // namespace
 
 ShapeFile parse_csv(std::string_view bytes) {
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // what spreadsheets put in front
   ShapeFile file;
   TextRows rows(bytes);
   if (!rows.next()) fail_at(1, "the file is empty; expected a header line with x, y and z");

@@ -15,12 +15,6 @@ std::string lower_case(std::string_view text) {
   return made;
 }
 
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = std::min(text.find_first_not_of(" \t\r"), text.size());
-  text.remove_prefix(begin);
-  return text.substr(0, text.find_last_not_of(" \t\r") + 1);
-}
-
 void VoxelHeader::set(std::string_view name, std::string_view value, std::uint64_t line) {
   fields_[lower_case(without_blanks(name))] = {std::string(without_blanks(value)), line};
 }

@@ -12,9 +12,6 @@ namespace affskel::core {
 /// The text in small letters.
 std::string lower_case(std::string_view text);
 
-/// The text without blanks around it.
-std::string_view without_blanks(std::string_view text);
-
 /// Fields of a header in text, each with its line; names in small letters.
 class VoxelHeader {
  public:
