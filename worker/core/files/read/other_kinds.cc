@@ -37,22 +37,23 @@ constexpr std::array<OtherKind, 11> kOthers = {{
 
 constexpr std::size_t kSeen = 1024;  // bytes in which a file says what it is
 
-// Whether a text begins as OFF may, with comments before the header.
+// Whether a text begins as OFF may; of one without words the reader says so.
 bool may_be_off(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  for (;;) {
-    const std::size_t word = text.find_first_not_of(" \t\v\f\r\n");
-    if (word == std::string_view::npos) return true;  // nothing: said by the reader
-    text.remove_prefix(word);
-    if (text.front() != '#') break;
-    text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
-  }
-  const std::string_view header = text.substr(0, text.find_first_of(" \t\v\f\r\n"));
-  return header.size() <= 8 && header.ends_with("OFF");
+  const std::string_view header = first_word(text);
+  return header.empty() || (header.size() <= 8 && header.ends_with("OFF"));
 }
 
 }  // namespace
+
+std::string_view first_word(std::string_view bytes) {
+  constexpr std::string_view kBlank = " \t\r\n\v\f";
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  while (true) {
+    bytes.remove_prefix(std::min(bytes.find_first_not_of(kBlank), bytes.size()));
+    if (!bytes.starts_with('#')) return bytes.substr(0, bytes.find_first_of(kBlank));
+    bytes.remove_prefix(std::min(bytes.find_first_of("\r\n"), bytes.size()));
+  }
+}
 
 void refuse_unknown_kinds(std::string_view bytes) {
   const bool binary = bytes.substr(0, kSeen).find('\0') != std::string_view::npos;

@@ -4,6 +4,9 @@
 
 namespace affskel::core {
 
+/// The first word that is in no comment (#); a byte order mark is passed over.
+std::string_view first_word(std::string_view bytes);
+
 /// Refuses files that are known by their first bytes and cannot be read, with what they are and what to do.
 /// @throws CoreError kBadInput.
 void refuse_other_kinds(std::string_view bytes);

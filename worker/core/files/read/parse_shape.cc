@@ -59,17 +59,6 @@ void check_finite(const ShapeFile& file) {
   }
 }
 
-// Of the first line that is neither blank nor a comment.
-std::string_view first_word(std::string_view bytes) {
-  constexpr std::string_view kBlank = " \t\r\n\v\f";
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  while (true) {
-    bytes.remove_prefix(std::min(bytes.find_first_not_of(kBlank), bytes.size()));
-    if (!bytes.starts_with('#')) return bytes.substr(0, bytes.find_first_of(kBlank));
-    bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size()));
-  }
-}
-
 bool holds_mesh(std::string_view extension) {
   constexpr std::array<std::string_view, 10> kMeshes = {".off", ".ply",  ".obj", ".stl", ".vtp",
                                                         ".glb", ".gltf", ".3mf", ".xyz", ".csv"};
