@@ -16,6 +16,12 @@ Box box_of(std::span<const Vec3> points) {
   return box;
 }
 
+Box box_of(std::span<const Vec3> points, const Matrix3& axes) {
+  Box box;
+  for (const Vec3& p : points) box.include(transposed_times(axes, p));
+  return box;
+}
+
 Box box_of(const Mesh& mesh, const Triangle& triangle) {
   Box box;
   for (const std::uint32_t corner : triangle) box.include(mesh.points[corner]);

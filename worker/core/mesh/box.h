@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/matrix3.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -28,6 +29,13 @@ struct Box {
     }
   }
   void include(const Vec3& p) { include(Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}}); }
+  /// Of a place from the box, in which it is 0.
+  double squared_distance(const Vec3& place) const {
+    const auto outside = [](double x, double a, double b) { return x < a ? a - x : x > b ? x - b : 0.0; };
+    const Vec3 way = {outside(place.x, low[0], high[0]), outside(place.y, low[1], high[1]),
+                      outside(place.z, low[2], high[2])};
+    return dot(way, way);
+  }
 
   Vec3 lowest() const { return {low[0], low[1], low[2]}; }
   Vec3 highest() const { return {high[0], high[1], high[2]}; }
@@ -42,6 +50,8 @@ struct Box {
 /// Tightest box round points.
 Box box_of(std::span<const Vec3> points);
 
+/// Tightest box along the axes, in coordinates along them.
+Box box_of(std::span<const Vec3> points, const Matrix3& axes);
 /// Tightest box round a triangle.
 Box box_of(const Mesh& mesh, const Triangle& triangle);
 

@@ -3,12 +3,12 @@
 #include "core/solid/shrink_box.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/base/axis_choice.h"
+#include "core/mesh/box.h"
 
 namespace affskel::core {
 namespace {
@@ -97,11 +97,8 @@ bool turn_about(std::size_t k, std::span<const Vec3> points, Matrix3& axes, Exec
 }
 
 double volume_of(std::span<const Vec3> points, const Matrix3& axes) {
-  std::array<Range, 3> sides;
-  for (const Vec3& p : points) {
-    for (std::size_t k = 0; k < 3; ++k) sides[k].add(dot(axes[k], p));
-  }
-  return sides[0].length() * sides[1].length() * sides[2].length();
+  const Vec3 sides = box_of(points, axes).sides();
+  return sides.x * sides.y * sides.z;
 }
 
 }  // namespace

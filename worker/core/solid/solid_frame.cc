@@ -30,6 +30,7 @@
 #include "core/base/cube_root.h"
 #include "core/base/error.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/mesh/box.h"
 #include "core/solid/independent_axes.h"
 #include "core/solid/least_box.h"
 #include "core/solid/moments.h"
@@ -92,7 +93,9 @@ class Frame {
   }
 
   Matrix3 least_box(ExecutionContext* context) const {
-    return oriented(descending(with_sides(least_box_axes(mesh_, context))).axes);
+    const Matrix3 axes = least_box_axes(mesh_, context);
+    const Vec3 sides = box_of(mesh_.points, axes).sides();
+    return oriented(descending({{sides.x, sides.y, sides.z}, axes}).axes);
   }
 
   Matrix3 affine() const {
@@ -128,19 +131,6 @@ class Frame {
       covariance = covariance + Matrix3{share * q.x * q, share * q.y * q, share * q.z * q};
     }
     return covariance;
-  }
-
-  OrderedAxes with_sides(const Matrix3& axes) const {
-    return {{side(axes[0]), side(axes[1]), side(axes[2])}, axes};
-  }
-
-  double side(const Vec3& axis) const {
-    double low = dot(axis, mesh_.points.front()), high = low;
-    for (const Vec3& p : mesh_.points) {
-      low = std::min(low, dot(axis, p));
-      high = std::max(high, dot(axis, p));
-    }
-    return high - low;
   }
 
   // Turns the axis to where the third moment of w = whitening (x - centroid), whitening symmetric, is > 0.

@@ -23,11 +23,7 @@ struct Nearer {
   const Vec3& place;
   double& least;  // squared
 
-  bool meets(const Box& box) const {
-    const auto out = [](double at, double low, double high) { return std::max({low - at, at - high, 0.0}); };
-    return square(Vec3{out(place.x, box.low[0], box.high[0]), out(place.y, box.low[1], box.high[1]),
-                       out(place.z, box.low[2], box.high[2])}) <= least;
-  }
+  bool meets(const Box& box) const { return box.squared_distance(place) <= least; }
 };
 
 // The points that triangles use.

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/axis_choice.h"
 
 namespace affskel::core {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // More than the rounding of axes, centres and projections together, which is about 2^-48.
 constexpr double kMargin = 0x1p-46;
@@ -38,23 +35,12 @@ UnitTriangles::UnitTriangles(const Mesh& mesh) : mesh_(&mesh) {
   unit_ = std::ldexp(1.0, -std::max(exponent, -1000));
 }
 
-OrientedExtent::OrientedExtent(const Matrix3& axes)
-    : axes_(axes), along_{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}} {}
-
 void OrientedExtent::include(const Corners& corners) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const Vec3& p : corners) {
-      const double along = dot(axes_[k], p);
-      along_.low[k] = std::min(along_.low[k], along);
-      along_.high[k] = std::max(along_.high[k], along);
-    }
-  }
+  along_.include(box_of(corners, axes_));
 }
 
 OrientedBox OrientedExtent::box() const {
-  const auto middle = [&](std::size_t k) { return 0.5 * (along_.low[k] + along_.high[k]); };
-  const auto half = [&](std::size_t k) { return 0.5 * (along_.high[k] - along_.low[k]); };
-  return {axes_, axes_ * Vec3{middle(0), middle(1), middle(2)}, {half(0), half(1), half(2)}};
+  return {axes_, axes_ * along_.middle(), 0.5 * along_.sides()};
 }
 
 OrientedBox oriented_box(const Corners& corners) {
@@ -70,8 +56,7 @@ OrientedBox oriented_box(const Corners& corners) {
 }
 
 OrientedBox oriented_box(const Box& box, double unit) {
-  const Vec3 low = unit * Vec3{box.low[0], box.low[1], box.low[2]};
-  const Vec3 high = unit * Vec3{box.high[0], box.high[1], box.high[2]};
+  const Vec3 low = unit * box.lowest(), high = unit * box.highest();
   return {kIdentity3, 0.5 * (low + high), 0.5 * (high - low)};
 }
 

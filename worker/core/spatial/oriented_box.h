@@ -41,7 +41,7 @@ struct OrientedBox {
 /// The tightest box along given axes.
 class OrientedExtent {
  public:
-  explicit OrientedExtent(const Matrix3& axes);
+  explicit OrientedExtent(const Matrix3& axes) : axes_(axes) {}
   void include(const Corners& corners);
   /// Of what was included, at least one triangle.
   OrientedBox box() const;

@@ -10,21 +10,12 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/mesh/box.h"
 
 namespace affskel::core {
 namespace {
 
 double squared_distance(const Vec3& a, const Vec3& b) {
   const Vec3 way = a - b;
-  return dot(way, way);
-}
-
-// A lower bound of squared_distance to all points of the box that rounding cannot push above it: each step
-// below rounds a difference that is at most the one of any point, and rounding keeps order.
-double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) {
-  const auto outside = [](double x, double a, double b) { return x < a ? a - x : x > b ? x - b : 0.0; };
-  const Vec3 way = {outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)};
   return dot(way, way);
 }
 
@@ -44,7 +35,7 @@ std::uint32_t PointIndex::build(std::uint32_t first, std::uint32_t count) {
   Box box;
   for (std::uint32_t i = first; i < first + count; ++i) box.include(points_[i].at);
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({box.lowest(), box.highest(), first, count, 0});
+  nodes_.push_back({box, first, count, 0});
   if (count <= kLeaf) return index;
 
   const int axis = static_cast<int>(box.longest_axis());
@@ -61,9 +52,9 @@ PointIndex::Found PointIndex::find(const Vec3& place) const {
   double best = std::numeric_limits<double>::infinity();
   std::uint32_t number = 0;
   if (nodes_.empty()) return {best, number};
-  const auto bound = [&](std::uint32_t node) {
-    return squared_distance_to_box(place, nodes_[node].low, nodes_[node].high);
-  };
+  // A lower bound of squared_distance to all points of the box that rounding cannot push above it: each step
+  // rounds a difference that is at most the one of any point, and rounding keeps order.
+  const auto bound = [&](std::uint32_t node) { return nodes_[node].box.squared_distance(place); };
   std::array<std::pair<double, std::uint32_t>, 64> stack;  // the tree is balanced: at most 32 levels
   std::size_t depth = 0;
   stack[depth++] = {bound(0), 0};

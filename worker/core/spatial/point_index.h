@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/vec3.h"
+#include "core/mesh/box.h"
 
 namespace affskel::core {
 
@@ -30,7 +30,7 @@ class PointIndex {
  private:
   /// Of points_[first, first + count); its left half is the next node, its right half `right`.
   struct Node {
-    Vec3 low, high;  // tight box
+    Box box;  // tight
     std::uint32_t first, count;
     std::uint32_t right;  // 0: a leaf
   };

@@ -96,9 +96,7 @@ class PairTest {
  private:
   /// Box of the side opposite to the one shared vertex.
   Box side_box(const Turned& turned) const {
-    const Vec3 &p = mesh_.points[turned.corner[1]], &q = mesh_.points[turned.corner[2]];
-    return {{std::min(p.x, q.x), std::min(p.y, q.y), std::min(p.z, q.z)},
-            {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}};
+    return box_of(std::array{mesh_.points[turned.corner[1]], mesh_.points[turned.corner[2]]});
   }
 
   Point point(std::uint32_t v) const { return point_of(mesh_, v); }
