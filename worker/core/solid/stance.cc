@@ -41,12 +41,8 @@ AxisDirection usual_front(AxisDirection up) {
 
 class Shape {
  public:
-  Shape(const Mesh& mesh, std::vector<Vec3> places) : distance_(mesh) {
+  Shape(const Mesh& mesh, std::vector<Vec3> places) : distance_(mesh), box_(box_of(places)) {
     for (const Vec3& place : places) places_.push_back(components(place));
-    const Box box = box_of(places);
-    low_ = box.low;
-    high_ = box.high;
-    longest_ = box.longest_side();
     for (const Axes& place : places_)
       for (std::size_t a = 0; a < 3; ++a) middle_[a] += place[a] / double(places_.size());
     for (std::size_t a = 0; a < 3; ++a) unlikeness_[a] = unlike_mirror_image(a);
@@ -70,22 +66,22 @@ class Shape {
     }
     const double head = beside(up, 0.85, 1, front.axis) - middle_[front.axis];
     const double feet = beside(up, 0, 0.04, front.axis) - beside(up, 0.07, 0.15, front.axis);
-    if (std::fabs(head) > kHeadAside * longest_) {
+    if (std::fabs(head) > kHeadAside * box_.longest_side()) {
       front.minus = head < 0;
-    } else if (std::fabs(feet) > kFeetAside * longest_) {
+    } else if (std::fabs(feet) > kFeetAside * box_.longest_side()) {
       front.minus = feet < 0;
     }
     return front;
   }
 
  private:
-  double side(std::size_t axis) const { return high_[axis] - low_[axis]; }
+  double side(std::size_t axis) const { return box_.high[axis] - box_.low[axis]; }
 
   // How far the surface is from its mirror image in the mean, by the side across the mirror, which stands in the middle
   // of the box or of the surface, whichever suits better.
   double unlike_mirror_image(std::size_t axis) const {
     double least = HUGE_VAL;
-    for (const double mirror : {(low_[axis] + high_[axis]) / 2, middle_[axis]}) {
+    for (const double mirror : {(box_.low[axis] + box_.high[axis]) / 2, middle_[axis]}) {
       double sum = 0;
       std::size_t count = 0;
       for (std::size_t p = 0; p < places_.size(); p += kMirrored, ++count) {
@@ -105,19 +101,14 @@ class Shape {
 
   // The box round what it stands on, as a share of the whole's base; 0 when it would fall over.
   double spread_of_feet(std::size_t up) const {
-    Axes low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (const Axes& place : places_) {
-      if (place[up] > low_[up] + kFeet * side(up)) continue;
-      for (std::size_t a = 0; a < 3; ++a) {
-        low[a] = std::min(low[a], place[a]);
-        high[a] = std::max(high[a], place[a]);
-      }
-    }
+    Box feet;
+    for (const Axes& place : places_)
+      if (place[up] <= box_.low[up] + kFeet * side(up)) feet.include(Box{place, place});
     double share = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       if (a == up) continue;
-      if (!(low[a] < middle_[a] && middle_[a] < high[a])) return 0;
-      share *= (high[a] - low[a]) / side(a);
+      if (!(feet.low[a] < middle_[a] && middle_[a] < feet.high[a])) return 0;
+      share *= (feet.high[a] - feet.low[a]) / side(a);
     }
     return share;
   }
@@ -127,7 +118,7 @@ class Shape {
     double sum = 0;
     std::size_t count = 0;
     for (const Axes& place : places_) {
-      const double share = (place[up.axis] - low_[up.axis]) / side(up.axis);
+      const double share = (place[up.axis] - box_.low[up.axis]) / side(up.axis);
       const double height = up.minus ? 1 - share : share;
       if (!(height >= from && height <= to)) continue;
       sum += place[axis];
@@ -138,8 +129,8 @@ class Shape {
 
   DistanceToMesh distance_;
   std::vector<Axes> places_;
-  Axes low_{}, high_{}, middle_{}, unlikeness_{};
-  double longest_ = 0;
+  Box box_;
+  Axes middle_{}, unlikeness_{};
 };
 
 // Empty where there is nothing to look at.

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
+#include "core/mesh/box.h"
 #include "core/shapes/edge_collapse.h"
 #include "core/shapes/implicit_mesh.h"
 
@@ -107,7 +107,6 @@ class Inside {
     }
     below_ = most_of_the_border_is_above();
     outside_ = below_ ? high : low;
-    for (std::size_t a = 0; a < 3; ++a) reach_[a] = {std::numeric_limits<double>::max(), -1};
     for_each_voxel([&](std::size_t i, std::size_t j, std::size_t k, double value) {
       steepest_ = std::max({steepest_, std::abs(value - voxel(i + 1, j, k)),
                             std::abs(value - voxel(i, j + 1, k)), std::abs(value - voxel(i, j, k + 1)),
@@ -115,12 +114,9 @@ class Inside {
       const bool inside = (value < isovalue_) == below_;
       for (const double next : {voxel(i + 1, j, k), voxel(i, j + 1, k), voxel(i, j, k + 1)})
         if (((next < isovalue_) == below_) != inside) ++sides_;
-      if (!inside) return;
-      const std::array<double, 3> at{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-      for (std::size_t a = 0; a < 3; ++a)
-        reach_[a] = {std::min(reach_[a].low, at[a]), std::max(reach_[a].high, at[a])};
+      if (inside) reach_.include(vector_of(std::array{i, j, k}));
     });
-    if (reach_[0].high < 0)
+    if (reach_.high[0] < 0)
       throw CoreError(CoreError::Code::kBadInput,
                       "has no voxel on the inner side of " + base::to_text(isovalue));
     steepest_ *= std::sqrt(3.0);  // the slope along each axis at once
@@ -144,14 +140,10 @@ class Inside {
   bool below() const { return below_; }
   // Of voxels, between both sides of the surface.
   std::size_t sides() const { return sides_; }
-  Vec3 low() const { return {reach_[0].low, reach_[1].low, reach_[2].low}; }
-  Vec3 high() const { return {reach_[0].high, reach_[1].high, reach_[2].high}; }
+  // Of the inner voxels, indices.
+  const Box& reach() const { return reach_; }
 
  private:
-  struct Reach {
-    double low, high;
-  };
-
   // Behind the last voxels lies the outside.
   double voxel(std::size_t i, std::size_t j, std::size_t k) const {
     return i < image_.size[0] && j < image_.size[1] && k < image_.size[2] ? image_.at(i, j, k) : outside_;
@@ -187,7 +179,7 @@ class Inside {
   double outside_ = 0;
   double steepest_ = 0;
   std::size_t sides_ = 0;
-  std::array<Reach, 3> reach_;  // indices of the inner voxels
+  Box reach_;  // of the inner voxels, indices
   std::shared_ptr<const Clearance> clearance_;
 };
 
@@ -206,16 +198,15 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
   const Inside inside(image, options.isovalue);
   Isosurface found;
   found.below = inside.below();
-  const Vec3 sides = inside.high() - inside.low();
-  const double longest = std::max({sides.x, sides.y, sides.z}) + 1;
+  const double longest = inside.reach().longest_side() + 1;
   const double enough = std::sqrt(kTrianglesPerSide * static_cast<double>(inside.sides()) /
                                   (kTrianglesBefore * static_cast<double>(options.max_triangles)));
   found.resolution =
       options.resolution > 0 ? options.resolution : std::max({1.0, longest / kCellsAlongTheSolid, enough});
   const double margin = 1 + 1.5 * found.resolution;
   ImplicitMeshOptions cubes;
-  cubes.low = inside.low() - Vec3{margin, margin, margin};
-  cubes.high = inside.high() + Vec3{margin, margin, margin};
+  cubes.low = inside.reach().lowest() - Vec3{margin, margin, margin};
+  cubes.high = inside.reach().highest() + Vec3{margin, margin, margin};
   cubes.spacing = found.resolution;
   const Vec3 box = cubes.high - cubes.low;
   if (box.x / cubes.spacing * (box.y / cubes.spacing) * (box.z / cubes.spacing) > kMaxCubes)
