@@ -19,47 +19,31 @@
 namespace affskel::core {
 namespace {
 
-class ShockFinder {
- public:
-  ShockFinder(const Lattice& lattice, const FrameField& field, const ChordConstants& constants)
-      : lattice_(lattice), field_(field), constants_(constants) {}
-
-  std::vector<ChordShock> run() {
-    for_each_edge(lattice_, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
-      if (const std::optional<ChordShock> shock = between(x, y, axis, place)) shocks_.push_back(*shock);
-    });
-    std::sort(shocks_.begin(), shocks_.end(), by_edge);
-    return std::move(shocks_);
-  }
-
- private:
-  std::optional<ChordShock> between(std::uint32_t x, std::uint32_t y, std::uint8_t axis,
-                                    const std::array<std::uint32_t, 3>& place) const {
-    const std::uint32_t none = FieldValue::kNoDirection;
-    if (field_.direction[x] == field_.direction[y] || field_.direction[x] == none ||
-        field_.direction[y] == none) {
-      return {};
-    }
-    ChordShock shock = tangents_on_edge(field_, x, y, axis, place);
-    if (!(shock.strength > 0)) return {};
-    if (!(shock.strength >= constants_.min_strength && shock.opening >= constants_.min_opening)) return {};
-    if (!(shock.t >= -constants_.slack && shock.t <= 1 + constants_.slack)) return {};
-    clamp_to_edge(field_, shock);
-    shock.turn = shock.opening;
-    return shock;
-  }
-
-  const Lattice& lattice_;
-  const FrameField& field_;
-  const ChordConstants& constants_;
-  std::vector<ChordShock> shocks_;
-};
+std::optional<ChordShock> shock_between(const FrameField& field, const ChordConstants& constants,
+                                        std::uint32_t x, std::uint32_t y, std::uint8_t axis,
+                                        const std::array<std::uint32_t, 3>& place) {
+  const std::uint32_t none = FieldValue::kNoDirection;
+  if (field.direction[x] == field.direction[y] || field.direction[x] == none || field.direction[y] == none)
+    return {};
+  ChordShock shock = tangents_on_edge(field, x, y, axis, place);
+  if (!(shock.strength > 0)) return {};
+  if (!(shock.strength >= constants.min_strength && shock.opening >= constants.min_opening)) return {};
+  if (!(shock.t >= -constants.slack && shock.t <= 1 + constants.slack)) return {};
+  clamp_to_edge(field, shock);
+  shock.turn = shock.opening;
+  return shock;
+}
 
 }  // namespace
 
 std::vector<ChordShock> chord_shocks(const Lattice& lattice, const FrameField& field,
                                      const ChordConstants& constants) {
-  return ShockFinder(lattice, field, constants).run();
+  std::vector<ChordShock> shocks;
+  for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
+    if (const auto shock = shock_between(field, constants, x, y, axis, place)) shocks.push_back(*shock);
+  });
+  std::sort(shocks.begin(), shocks.end(), by_edge);
+  return shocks;
 }
 
 double squares_of(const ChordShock& shock) {
