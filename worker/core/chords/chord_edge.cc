@@ -15,11 +15,11 @@ EdgeValue end_value(const FrameField& field, std::uint32_t point, int axis) {
 
 }  // namespace
 
-std::vector<LatticeEdge> lattice_edges(std::span<const ChordShock> shocks) {
+EdgeCells cells_of(const Lattice& lattice, const SolidParts& parts, std::span<const ChordShock> shocks) {
   std::vector<LatticeEdge> edges;
   edges.reserve(shocks.size());
-  for (const ChordShock& shock : shocks) edges.push_back(edge_of(shock));
-  return edges;
+  for (const ChordShock& shock : shocks) edges.push_back({shock.point, shock.axis, shock.place});
+  return edge_cells(lattice, DualComplex(lattice), parts, edges);
 }
 
 double opening_of(const Vec3& a, const Vec3& b) {

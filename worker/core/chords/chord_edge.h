@@ -3,21 +3,17 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/vec3.h"
 #include "core/chords/chord_shocks.h"
+#include "core/contour/edge_cells.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_edges.h"
 
 namespace affskel::core {
 
-inline LatticeEdge edge_of(const ChordShock& shock) {
-  return {shock.point, shock.axis, shock.place};
-}
-
-/// The edges of the shocks, in their order.
-std::vector<LatticeEdge> lattice_edges(std::span<const ChordShock> shocks);
+/// The cells round the edges of the shocks, in their order.
+EdgeCells cells_of(const Lattice& lattice, const SolidParts& parts, std::span<const ChordShock> shocks);
 
 /// The order of lists of shocks: by (point, axis).
 inline bool by_edge(const ChordShock& a, const ChordShock& b) {

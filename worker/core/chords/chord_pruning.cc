@@ -97,7 +97,7 @@ class Pruning {
         shocks_(shocks),
         significance_(significance),
         constants_(constants),
-        cells_(edge_cells(lattice, DualComplex(lattice), parts, lattice_edges(shocks))),
+        cells_(cells_of(lattice, parts, shocks)),
         pieces_(shocks.size()),
         owner_(shocks.size(), kNoNode) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;

@@ -56,13 +56,12 @@ void contour(const Lattice& lattice, const SolidParts& parts, const ChordSheetOp
              ChordSheet& sheet) {
   std::vector<SheetCrossing> crossings;
   crossings.reserve(sheet.shocks.size());
-  const std::vector<LatticeEdge> edges = lattice_edges(sheet.shocks);
   for (const ChordShock& shock : sheet.shocks) {
-    crossings.push_back({edge_of(shock), shock.position, unit(shock.gradient_low - shock.gradient_high)});
+    crossings.push_back({shock.position, unit(shock.gradient_low - shock.gradient_high)});
   }
   const VertexValues values(lattice, sheet.shocks);
   static_cast<SheetMesh&>(sheet) = dual_contour(
-      lattice, parts, edge_cells(lattice, DualComplex(lattice), parts, edges), crossings,
+      lattice, parts, cells_of(lattice, parts, sheet.shocks), crossings,
       [&](const Vec3& position, std::span<const std::uint32_t> members) {
         return values.at(position, members);
       },

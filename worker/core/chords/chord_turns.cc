@@ -215,7 +215,7 @@ class TurnGauge {
 void measure_turns(const Lattice& lattice, const SolidParts& parts, const FrameField& field,
                    std::vector<ChordShock>& shocks, ExecutionContext* context,
                    const ChordConstants& constants) {
-  const EdgeCells cells = edge_cells(lattice, DualComplex(lattice), parts, lattice_edges(shocks));
+  const EdgeCells cells = cells_of(lattice, parts, shocks);
   TurnGauge gauge(lattice, field, cells, shocks, context, constants);
   gauge.measure();
   for (std::uint32_t round = 0; round < constants.rounds; ++round) gauge.average();

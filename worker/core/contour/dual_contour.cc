@@ -21,10 +21,8 @@ namespace {
 // vertex along a sheet whose planes agree, little beside the planes themselves.
 constexpr double kRegularisation = 0.05;
 
-// Rows of a symmetric positive definite matrix.
-using Matrix = Matrix3;
-
-Vec3 solve(const Matrix& m, const Vec3& b) {
+// @param m symmetric and positive definite.
+Vec3 solve(const Matrix3& m, const Vec3& b) {
   const Vec3 c0 = cross(m[1], m[2]), c1 = cross(m[2], m[0]), c2 = cross(m[0], m[1]);
   return (1 / dot(m[0], c0)) * (b.x * c0 + (b.y * c1 + b.z * c2));
 }
@@ -70,7 +68,7 @@ class Contouring {
     const Vec3& reference = crossings_[members[0]].normal;
     const double share = 1 / static_cast<double>(members.size());
     Vec3 mean, normal;
-    Matrix m = kRegularisation * kIdentity3;
+    Matrix3 m = kRegularisation * kIdentity3;
     for (std::uint32_t s : members) {
       mean = mean + share * crossings_[s].position;
       const Vec3 n = dot(crossings_[s].normal, reference) < 0 ? -crossings_[s].normal : crossings_[s].normal;

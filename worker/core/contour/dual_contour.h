@@ -17,8 +17,7 @@ namespace affskel::core {
 
 /// Where a sheet crosses a lattice edge.
 struct SheetCrossing {
-  LatticeEdge edge;
-  Vec3 position;  ///< frame coordinates, on the edge and in the solid
+  Vec3 position;  ///< frame coordinates, on its edge and in the solid
   Vec3 normal;    ///< of the sheet, unit, of either sign
 };
 

@@ -78,8 +78,7 @@ SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCel
                   std::span<const RidgeCrossing> crossings, ExecutionContext* context) {
   std::vector<SheetCrossing> places;
   places.reserve(crossings.size());
-  for (const RidgeCrossing& crossing : crossings)
-    places.push_back({crossing.edge, crossing.at.position, crossing.normal});
+  for (const RidgeCrossing& crossing : crossings) places.push_back({crossing.at.position, crossing.normal});
   const auto mean = [&](const Vec3&, std::span<const std::uint32_t> members) {
     SheetVertex vertex = crossings[members[0]].at;
     for (std::size_t n = 1; n < members.size(); ++n)
