@@ -78,7 +78,7 @@ class PieceFinder::Work {
   Joins joins_at(std::uint32_t vertex) {
     trace_rest();
     joined_.resize(loops_.size(), 0);
-    if (!in_.crosses.empty() && in_.crosses[vertex] != 0) return Joins::unknown;
+    if (in_.at_crossing(vertex)) return Joins::unknown;
     std::uint32_t beside = vertex;  // in the plane, too
     for (const std::uint32_t other : in_.rings[vertex]) {
       if (!touches(other)) continue;
@@ -181,8 +181,7 @@ class PieceFinder::Work {
 
   // Whether of those round a vertex the plane touches this one alone, and passes both when it passes it.
   bool only_touches(std::uint32_t vertex, std::uint32_t other) const {
-    return (in_.crosses.empty() || in_.crosses[vertex] == 0) &&
-           dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
+    return !in_.at_crossing(vertex) && dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
            std::ranges::none_of(in_.rings[vertex], [&](std::uint32_t v) { return v != other && touches(v); });
   }
 

@@ -206,7 +206,7 @@ void PieceInput::find_rings() {
 
 // No plane through such a vertex has more than one stretch of its neighbours below.
 bool PieceInput::is_convex(std::uint32_t vertex) const {
-  if (!crosses.empty() && crosses[vertex] != 0) return false;
+  if (at_crossing(vertex)) return false;
   const auto ring = rings[vertex];
   int left = 0, right = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {

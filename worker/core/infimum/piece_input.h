@@ -111,9 +111,11 @@ struct PieceInput {
   /// Pairs of triangles that pass through each other.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<std::uint8_t> crosses;  ///< per vertex: at such a triangle; empty where there is none
-  bool is_ball = false;               ///< one shell without handles that does not pass through itself
-  double volume = 0;                  ///< of all solids, scaled units
-  std::optional<RayShooter> rays;     ///< only where a solid has several shells
+  /// Whether a triangle at the vertex passes through another.
+  bool at_crossing(std::uint32_t vertex) const { return !crosses.empty() && crosses[vertex] != 0; }
+  bool is_ball = false;            ///< one shell without handles that does not pass through itself
+  double volume = 0;               ///< of all solids, scaled units
+  std::optional<RayShooter> rays;  ///< only where a solid has several shells
 
  private:
   void number_anew(const Solid& solid);
