@@ -4,7 +4,9 @@
 #include <cstdint>
 
 namespace affskel::core {
+namespace {
 
+// The point itself where there are none.
 std::vector<Vec3> means_of_neighbours(const Mesh& mesh) {
   std::vector<Vec3> mean(mesh.points.size());
   std::vector<std::uint32_t> count(mesh.points.size());
@@ -18,6 +20,8 @@ std::vector<Vec3> means_of_neighbours(const Mesh& mesh) {
     mean[v] = count[v] == 0 ? mesh.points[v] : (1.0 / count[v]) * mean[v];
   return mean;
 }
+
+}  // namespace
 
 void smooth(Mesh& mesh, int times) {
   for (; times > 0; --times) {

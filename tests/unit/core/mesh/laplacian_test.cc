@@ -16,14 +16,10 @@ TEST(Laplacian, MovesTheVerticesOfAnIcosahedronTowardsItsCentre) {
   Mesh mesh = icosahedron();
   mesh.points.push_back({7, 8, 9});  // of no triangle
   const Mesh before = mesh;
-  const std::vector<Vec3> means = means_of_neighbours(mesh);
   smooth(mesh, 1);
   const double share = 1 / std::sqrt(5.0);
-  for (std::size_t v = 0; v < 12; ++v) {
-    EXPECT_LT(norm(means[v] - share * before.points[v]), 1e-15);
+  for (std::size_t v = 0; v < 12; ++v)
     EXPECT_LT(norm(mesh.points[v] - 0.5 * (1 + share) * before.points[v]), 1e-15);
-  }
-  EXPECT_EQ(means[12], before.points[12]);
   EXPECT_EQ(mesh.points[12], before.points[12]);
   EXPECT_EQ(mesh.triangles, before.triangles);
 }
