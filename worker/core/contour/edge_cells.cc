@@ -63,19 +63,19 @@ EdgeCells edge_cells(const Lattice& lattice, const DualComplex& complex, const S
   const std::vector<Entry> entries = entries_of(complex, edges);
   EdgeCells cells;
   cells.ring.resize(edges.size());
-  cells.members.reserve(entries.size());
   for (std::size_t e = 0; e < entries.size(); ++e) {
     const Entry& entry = entries[e];
     if (e == 0 || entries[e - 1].vertex != entry.vertex) {
       cells.vertex.push_back(entry.vertex);
       cells.whole.push_back(complex.star(entry.vertex).count == 8);
       cells.part.push_back(parts.of_point(DualComplex::cube_of(entry.vertex)));
-      cells.begin.push_back(static_cast<std::uint32_t>(e));
     }
     cells.ring[entry.edge][entry.corner] = static_cast<std::uint32_t>(cells.vertex.size() - 1);
-    cells.members.push_back(entry.edge);
   }
-  cells.begin.push_back(static_cast<std::uint32_t>(entries.size()));
+  cells.edges = {cells.vertex.size(), [&](const auto& put) {
+                   for (std::uint32_t e = 0; e < edges.size(); ++e)
+                     for (const std::uint32_t cell : cells.ring[e]) put(cell, e);
+                 }};
   cells.place = cells_of_vertices(lattice, cells.vertex);
   return cells;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/groups.h"
 #include "core/collapse/dual_complex.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/lattice/solid_parts.h"
@@ -22,14 +23,11 @@ struct EdgeCells {
   std::vector<CellPlace> place;                    ///< per cell
   std::vector<char> whole;                         ///< per cell: all eight corners hang together round it
   std::vector<std::uint32_t> part;                 ///< per cell: of the solid
-  std::vector<std::uint32_t> begin;                ///< per cell: its first entry in `members`; one more
-  std::vector<std::uint32_t> members;              ///< indices of edges, ascending by cell
+  Groups<std::uint32_t> edges;                     ///< per cell: indices of edges, ascending
   std::vector<std::array<std::uint32_t, 4>> ring;  ///< per edge: its cells, once round
 
   std::size_t size() const { return place.size(); }
-  std::span<const std::uint32_t> edges_of(std::uint32_t cell) const {
-    return {members.data() + begin[cell], members.data() + begin[cell + 1]};
-  }
+  std::span<const std::uint32_t> edges_of(std::uint32_t cell) const { return edges[cell]; }
 };
 
 /// @param complex, parts of this lattice.
