@@ -36,15 +36,6 @@ Soup soup_of(const Mesh& mesh) {
   return soup;
 }
 
-std::size_t drop_degenerate(Soup& soup) {
-  const std::size_t before = soup.triangles.size();
-  std::erase_if(soup.triangles, [&](const Polygon& t) {
-    const Point &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || a == b || b == c || c == a;
-  });
-  return before - soup.triangles.size();
-}
-
 Mesh core_mesh(const Soup& soup) {
   Mesh mesh;
   for (const Point& p : soup.points) mesh.points.push_back({p.x(), p.y(), p.z()});
@@ -74,7 +65,9 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   Soup soup = soup_of(mesh);
   oriented.unused_points = PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
   oriented.welded_points = PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.triangles);
-  oriented.degenerate = drop_degenerate(soup);
+  oriented.degenerate = std::erase_if(soup.triangles, [](const Polygon& t) {  // of equal points one is left
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  });
   oriented.repeated = PMP::merge_duplicate_polygons_in_polygon_soup(
       soup.points, soup.triangles,
       CGAL::parameters::erase_all_duplicates(false).require_same_orientation(false));
