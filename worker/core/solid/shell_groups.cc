@@ -8,28 +8,19 @@
 namespace affskel::core {
 namespace {
 
-// What may strictly hold the box: a node of the tree does when one of its boxes does.
-struct Round {
-  const Box& inner;
-  bool found = false;
-  mutable std::uint64_t looks = 0;
+// Looks at the boxes that `may` be of interest until one is found, and counts them.
+template <class May>
+struct Quest {
+  explicit Quest(May asked, bool known = false) : may(asked), found(known) {}
 
-  bool meets(const Box& outer) const {
+  bool meets(const Box& box) const {
     ++looks;
-    return !found && lies_strictly_in(inner, outer);
+    return !found && may(box);
   }
-};
 
-// What may lie strictly in the box.
-struct Within {
-  const Box& outer;
-  bool found = false;
+  May may;
+  bool found;
   mutable std::uint64_t looks = 0;
-
-  bool meets(const Box& other) const {
-    ++looks;
-    return !found && outer.meets(other);
-  }
 };
 
 }  // namespace
@@ -42,12 +33,12 @@ NestingShells nesting_shells(const Mesh& mesh, const std::vector<std::uint32_t>&
   const BoxTree tree(result.box);
   StopCheck stop(context);
   for (std::uint32_t s = 0; s < shells; ++s) {
-    Round round{result.box[s]};
+    const Box& own = result.box[s];
+    // A node of the tree holds the box strictly when one of its boxes does.
+    Quest round([&](const Box& outer) { return lies_strictly_in(own, outer); });
     tree.visit(round, [&](std::uint32_t) { round.found = true; });
-    Within within{result.box[s], round.found};
-    tree.visit(within, [&](std::uint32_t other) {
-      within.found = lies_strictly_in(result.box[other], result.box[s]);
-    });
+    Quest within([&](const Box& other) { return own.meets(other); }, round.found);
+    tree.visit(within, [&](std::uint32_t other) { within.found = lies_strictly_in(result.box[other], own); });
     stop.did(round.looks + within.looks);
     result.matters[s] = round.found || within.found ? 1 : 0;
   }
