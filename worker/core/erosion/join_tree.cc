@@ -183,7 +183,8 @@ class JoinTreeBuilder::Work {
       } else if (vertex_.links[v].middles <= 2) {
         arc = arc_of(vertex.down);
       } else {
-        arc = at_saddle(r);
+        gather_fan(r);
+        arc = join_meeting(r);
       }
       topology_.vertex_arc[v] = arc;
       ++topology_.cubic_count[arc];
@@ -223,19 +224,12 @@ class JoinTreeBuilder::Work {
     return new_arc(r, input_.vertex_solid[v]);
   }
 
-  std::uint32_t at_saddle(std::uint32_t r) {
-    meeting_.clear();
-    gather_fan(r);
-    return join_meeting(r);
-  }
-
   // Where two triangles cross, the regions on both sides are one.  They are joined at the higher of the two
   // triangles' lowest corners: only triangles that begin at v can cross one that is not joined with them yet.
   // That is early by at most a triangle's height.  Single chords become too large, which other directions put
   // right; none becomes too small, which nothing would.
   std::uint32_t at_crossing(std::uint32_t r) {
     const std::uint32_t v = heights_.order()[r];
-    meeting_.clear();
     gather_fan(r);
     for (std::uint32_t t : input_.fan(v)) {
       if (vertex_.lowest[t] != v) continue;
@@ -247,6 +241,7 @@ class JoinTreeBuilder::Work {
   }
 
   void gather_fan(std::uint32_t r) {
+    meeting_.clear();
     const std::uint32_t v = heights_.order()[r];
     for (std::uint32_t t : input_.fan(v)) {
       if (vertex_.lowest[t] != v) meeting_.push_back(arc_of(vertex_.lowest[t]));
