@@ -106,7 +106,7 @@ class ChordDescent::Work {
       if (piece_.volume - bound.promise * step.gain > bound.erosion) return {};
       if (!(step.gain > kLeastGain * piece_.volume) || !go(step)) break;
     }
-    return result(piece_.area + multipliers());
+    return result();
   }
 
   // The lesser piece, if there is one, on the other side of a saddle near a least one: of those that the plane
@@ -173,12 +173,11 @@ class ChordDescent::Work {
     });
   }
 
-  LeastChord result(double slope) const {
+  LeastChord result() const {
     LeastChord least;
-    if (!valid(piece_)) return least;
     least.erosion = piece_.volume;
     least.area = piece_.area;
-    least.slope = slope;
+    least.slope = piece_.area + multipliers();
     least.normal = d_;
     for (std::size_t i = 0; i < active_.size(); ++i) least.saddles[i] = active_[i];
     if (active_.size() == 2 && active_[1] < active_[0]) std::swap(least.saddles[0], least.saddles[1]);
