@@ -15,7 +15,7 @@
 #include "core/mesh/mesh_topology.h"
 #include "core/mesh/unused_points.h"
 #include "core/solid/copies.h"
-#include "core/solid/shell_nesting.h"
+#include "core/solid/shells.h"
 #include "core/solid/specks.h"
 #include "core/spatial/self_intersection.h"
 
@@ -60,9 +60,7 @@ class SolidBuilder {
     throw_if_stopped(options_.context);
     normalise();
     count_degenerate();
-    find_shells(mates);
-    throw_if_stopped(options_.context);
-    nest();
+    find_shells(mates, options_, solid_);
     throw_if_stopped(options_.context);
     const std::vector<double> volumes = scaled_volumes();
     // Before surfaces are turned, for the orientation of specks may be rounding.
@@ -214,48 +212,6 @@ class SolidBuilder {
     note(MeshNote::Severity::kWarning, "degenerate-triangles",
          base::counted(count, "triangle") +
              " without area, which give no direction, the first: " + place(first));
-  }
-
-  void find_shells(const HalfEdges& mates) {
-    std::uint32_t count = 0;
-    solid_.triangle_shell = connected_surfaces(mates, count);
-    solid_.shells.resize(count);
-    const Mesh& mesh = solid_.mesh;
-    std::vector<DoubleSum> volume(count);
-    std::vector<std::uint32_t> vertex_shell(mesh.points.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& c = mesh.triangles[t];
-      const std::uint32_t shell = solid_.triangle_shell[t];
-      volume[shell].add(dot(mesh.points[c[0]], cross(mesh.points[c[1]], mesh.points[c[2]])) / 6);
-      ++solid_.shells[shell].triangles;
-      for (std::uint32_t v : c) vertex_shell[v] = shell;
-    }
-    for (std::uint32_t shell : vertex_shell) ++solid_.shells[shell].vertices;
-    for (std::uint32_t s = 0; s < count; ++s) {
-      Shell& shell = solid_.shells[s];
-      shell.volume = volume[s].value();
-      // Euler: V - E + F = 2 - 2 g with E = 3 F / 2.
-      shell.genus =
-          1 -
-          (static_cast<std::int64_t>(shell.vertices) - static_cast<std::int64_t>(shell.triangles / 2)) / 2;
-    }
-  }
-
-  // Shells at odd depth are cavities of the solid around them.
-  void nest() {
-    const auto count = static_cast<std::uint32_t>(solid_.shells.size());
-    const ShellNesting nesting =
-        nest_shells(solid_.mesh, solid_.triangle_shell, count, {options_.threads, options_.context});
-    std::uint32_t solids = 0;
-    for (std::uint32_t s = 0; s < count; ++s) {
-      solid_.shells[s].cavity = nesting.depth[s] % 2 == 1;
-      if (!solid_.shells[s].cavity) solid_.shells[s].solid = solids++;
-    }
-    solid_.solid_volume.assign(solids, 0);
-    for (std::uint32_t s = 0; s < count; ++s) {
-      Shell& shell = solid_.shells[s];
-      if (shell.cavity) shell.solid = solid_.shells[nesting.parent[s]].solid;
-    }
   }
 
   // Per solid, its cavities subtracted; whichever way the surfaces face.
