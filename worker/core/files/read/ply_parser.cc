@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
-#include "base/coding.h"
 #include "base/number_text.h"
+#include "base/packed_numbers.h"
 #include "core/base/error.h"
 #include "core/files/ply_display.h"
 #include "core/files/read/ply_header.h"
@@ -18,7 +17,11 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::array<std::size_t, 8> kSize = {1, 1, 2, 2, 4, 4, 4, 8};  // by PlyType
+// By PlyType.
+constexpr std::array<base::NumberKind, 8> kKinds = {
+    base::kNumberKind<std::int8_t>,   base::kNumberKind<std::uint8_t>, base::kNumberKind<std::int16_t>,
+    base::kNumberKind<std::uint16_t>, base::kNumberKind<std::int32_t>, base::kNumberKind<std::uint32_t>,
+    base::kNumberKind<float>,         base::kNumberKind<double>};
 
 // Of the whole types, in their order.
 constexpr std::array<std::pair<double, double>, 6> kRange = {
@@ -40,14 +43,11 @@ class Values {
 
   double next(PlyType type) {
     if (encoding_ == PlyEncoding::kText) return next_word(type);
-    const std::size_t size = kSize[static_cast<std::size_t>(type)];
-    if (bytes_.size() < size) fail("the file ends inside");
-    std::array<char, 8> raw{};
-    std::copy_n(bytes_.begin(), size, raw.begin());
-    if (encoding_ == PlyEncoding::kBig)
-      std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(size));
-    bytes_.remove_prefix(size);
-    return decoded(raw.data(), type);
+    const base::NumberKind& kind = kKinds[static_cast<std::size_t>(type)];
+    if (bytes_.size() < kind.bytes) fail("the file ends inside");
+    const double value = kind.decode(bytes_.data(), encoding_ == PlyEncoding::kBig);
+    bytes_.remove_prefix(kind.bytes);
+    return value;
   }
 
   void end() const {
@@ -69,33 +69,6 @@ class Values {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { fail_at(line(), what + " " + place()); }
-
-  template <typename Number>
-  static double as(const char* raw) {
-    return static_cast<double>(base::decode<Number>(raw));
-  }
-
-  static double decoded(const char* raw, PlyType type) {
-    switch (type) {
-      case PlyType::kInt8:
-        return as<std::int8_t>(raw);
-      case PlyType::kUint8:
-        return as<std::uint8_t>(raw);
-      case PlyType::kInt16:
-        return as<std::int16_t>(raw);
-      case PlyType::kUint16:
-        return as<std::uint16_t>(raw);
-      case PlyType::kInt32:
-        return as<std::int32_t>(raw);
-      case PlyType::kUint32:
-        return as<std::uint32_t>(raw);
-      case PlyType::kFloat:
-        return as<float>(raw);
-      case PlyType::kDouble:
-        break;
-    }
-    return as<double>(raw);
-  }
 
   double next_word(PlyType type) {
     if (word_ == rows_.words().size()) fail("too few numbers in the row of");
