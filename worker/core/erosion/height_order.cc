@@ -11,10 +11,8 @@ namespace {
 constexpr double kRounder = 384.0;
 // The tilt that breaks ties; any vector in no special position will do.
 constexpr Vec3 kTilt{0.5497787143782138, 0.7853981633974483, 0.2861788337373061};
-// With fewer vertices than the first, comparing is quicker than clearing counters.  With fewer than the
-// others, two or three digits of 8 bits leave so few equal keys that ordering these costs less than one digit
-// more, or than counters for digits of 11 bits.
-constexpr std::size_t kComparedVertices = 48;
+// With fewer vertices, two or three digits of 8 bits leave so few equal keys that ordering these costs less
+// than one digit more, or than counters for digits of 11 bits.
 constexpr std::size_t kTwoDigitVertices = 500;
 constexpr std::size_t kThreeDigitVertices = 3000;
 
@@ -42,9 +40,7 @@ void HeightOrder::sort(const Vec3& d) {
   const std::size_t vertices = entries_.size();
   const int key_bits = vertices < kTwoDigitVertices ? 16 : vertices < kThreeDigitVertices ? 24 : 32;
   compute_keys(d, key_bits);
-  if (vertices < kComparedVertices) {
-    comparison_sort();
-  } else if (vertices < kTwoDigitVertices) {
+  if (vertices < kTwoDigitVertices) {
     radix_sort<8, 2>();
   } else if (vertices < kThreeDigitVertices) {
     radix_sort<8, 3>();
@@ -79,12 +75,6 @@ void HeightOrder::compute_keys(const Vec3& d, int key_bits) {
 bool HeightOrder::below(std::uint32_t a, std::uint32_t b) const {
   if (rounded_[a] != rounded_[b]) return rounded_[a] < rounded_[b];
   return tilt_[a] != tilt_[b] ? tilt_[a] < tilt_[b] : a < b;
-}
-
-void HeightOrder::comparison_sort() {
-  std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.key != b.key ? a.key < b.key : a.vertex < b.vertex;
-  });
 }
 
 template <int bits, int passes>

@@ -31,7 +31,6 @@ class HeightOrder {
   };
 
   void compute_keys(const Vec3& d, int key_bits);
-  void comparison_sort();
   template <int bits, int passes>
   void radix_sort();
   void resolve_ties();
