@@ -60,29 +60,23 @@ class Mending {
   void tell(const char* code, std::uint64_t count, const std::string& message) {
     if (count > 0) result_.steps.push_back({code, count, message});
   }
+  void tell(const char* code, std::uint64_t count, const char* noun, const std::string& what) {
+    tell(code, count, base::counted(count, noun) + what);
+  }
 
   void orient(const Mesh& mesh) {
     OrientedSoup soup = orient_soup(mesh);
-    tell("welded-points", soup.welded_points,
-         base::counted(soup.welded_points, "point") + " at the place of another joined to it");
-    tell("joined-points", soup.joined_points,
-         base::counted(soup.joined_points, "point") +
-             " within a millionth of the size of another joined to it");
-    tell("unused-points", soup.unused_points,
-         base::counted(soup.unused_points, "point") + " that no triangle names left out");
-    tell("degenerate-triangles", soup.degenerate,
-         base::counted(soup.degenerate, "triangle") + " with two corners at one place left out");
-    tell("repeated-triangles", soup.repeated,
-         base::counted(soup.repeated, "triangle") + " beside another of the same corners left out");
-    tell("t-junctions", soup.junctions,
-         base::counted(soup.junctions, "point") + " put into edges that they lie on (T-junctions)");
-    tell("turned-triangles", soup.turned,
-         base::counted(soup.turned, "triangle") + " turned to agree with the others");
-    tell(
-        "separated-points", soup.separated_points,
-        base::counted(soup.separated_points, "point") + " doubled, so that at every edge two triangles meet");
-    tell("stitched-edges", soup.stitched_edges,
-         base::counted(soup.stitched_edges, "pair") + " of edges between the same points joined");
+    tell("welded-points", soup.welded_points, "point", " at the place of another joined to it");
+    tell("joined-points", soup.joined_points, "point",
+         " within a millionth of the size of another joined to it");
+    tell("unused-points", soup.unused_points, "point", " that no triangle names left out");
+    tell("degenerate-triangles", soup.degenerate, "triangle", " with two corners at one place left out");
+    tell("repeated-triangles", soup.repeated, "triangle", " beside another of the same corners left out");
+    tell("t-junctions", soup.junctions, "point", " put into edges that they lie on (T-junctions)");
+    tell("turned-triangles", soup.turned, "triangle", " turned to agree with the others");
+    tell("separated-points", soup.separated_points, "point",
+         " doubled, so that at every edge two triangles meet");
+    tell("stitched-edges", soup.stitched_edges, "pair", " of edges between the same points joined");
     result_.mesh = std::move(soup.mesh);
   }
 
@@ -162,7 +156,7 @@ class Mending {
       if (!is_flap(parts.find(i))) kept.push_back(mesh.triangles[i]);
     mesh.triangles = std::move(kept);
     drop_unused_points(mesh);
-    tell("flaps", flaps, base::counted(flaps, "part") + " without volume left out");
+    tell("flaps", flaps, "part", " without volume left out");
   }
 
   // All of it, when it encloses less than nothing: what lies in what is for make_solid.
