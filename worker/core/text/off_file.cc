@@ -42,18 +42,14 @@ class OffReader {
   void read_header() {
     if (!rows_.next()) fail_at_line(1, "the file is empty; expected an OFF header");
     std::string_view word = rows_.words()[0];
-    if (word.substr(0, 2) == "ST") {
-      texture_ = true;
-      word.remove_prefix(2);
-    }
-    if (!word.empty() && word.front() == 'C') {
-      colour_ = true;
-      word.remove_prefix(1);
-    }
-    if (!word.empty() && word.front() == 'N') {
-      normal_ = true;
-      word.remove_prefix(1);
-    }
+    const auto take = [&word](std::string_view prefix) {
+      const bool taken = word.starts_with(prefix);
+      if (taken) word.remove_prefix(prefix.size());
+      return taken;
+    };
+    texture_ = take("ST");
+    colour_ = take("C");
+    normal_ = take("N");
     if (word == "4OFF") {
       homogeneous_ = true;
       word.remove_prefix(1);
