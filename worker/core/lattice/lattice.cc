@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "base/number_text.h"
@@ -23,7 +24,7 @@ class LatticeBuilder {
  public:
   // Of the options only those that do not say where the points are.
   LatticeBuilder(const Solid& solid, const LatticeGrid& grid, const LatticeOptions& options)
-      : mesh_(solid.mesh), options_(options), threads_(options.threads), context_(options.context) {
+      : mesh_(solid.mesh), options_(options) {
     lattice_.grid = grid;
     const double cell = dot(grid.axes[0], cross(grid.axes[1], grid.axes[2]));
     lattice_.spacing = solid.scale() * cube_root(std::abs(cell));
@@ -36,7 +37,7 @@ class LatticeBuilder {
 
   Lattice run() {
     require_memory(count());
-    parallel_for(threads_, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
+    parallel_for(options_.threads, 2, [this](std::size_t axis) { fill_axis(static_cast<int>(axis)); });
     return std::move(lattice_);
   }
 
@@ -73,8 +74,8 @@ class LatticeBuilder {
   void fill_axis_2() {
     require_memory(0);
     const LatticeGrid& grid = lattice_.grid;
-    const LineCrossings lines = scan_convert(mesh_, grid, 2, threads_, context_);
-    StopCheck stop(context_);
+    const LineCrossings lines = scan_convert(mesh_, grid, 2, options_.threads, options_.context);
+    StopCheck stop(options_.context);
     std::uint64_t points = 0;
     for (std::uint32_t i = 0; i < grid.dims[0]; ++i) {
       for (std::uint32_t j = 0; j < grid.dims[1]; ++j) {
@@ -112,14 +113,13 @@ class LatticeBuilder {
   // Sorts the points into the lines of another axis and cuts these into runs.
   void fill_axis(int axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const LineCrossings lines = scan_convert(mesh_, lattice_.grid, axis, 1, context_);
+    const LineCrossings lines = scan_convert(mesh_, lattice_.grid, axis, 1, options_.context);
     const std::size_t line_count = lines.begin.size() - 1;
     std::vector<std::uint32_t> begin(line_count + 1, 0);
-    for_each_point([&](std::uint32_t, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
-      static_cast<void>(run);
+    for_each_point([&](std::uint32_t, const LatticeRun&, const std::array<std::uint32_t, 3>& at) {
       ++begin[line_of(axis, at) + 1];
     });
-    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
     // Left uninitialised: filling so much memory can take seconds, in which the context is not asked.
     const auto run_of = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
@@ -131,7 +131,7 @@ class LatticeBuilder {
     });
     std::vector<std::uint32_t>& kept = lattice_.axis[a].order;
     kept.reserve(lattice_.points);
-    StopCheck stop(context_);
+    StopCheck stop(options_.context);
     for (std::size_t line = 0; line < line_count; ++line) {
       stop.did(1 + begin[line + 1] - begin[line]);
       cut_line(a, lines, line, order.get(), begin[line], begin[line + 1], run_of.get());
@@ -146,7 +146,7 @@ class LatticeBuilder {
 
   template <class Visit>
   void for_each_point(Visit visit) const {
-    StopCheck stop(context_);
+    StopCheck stop(options_.context);
     for (const LatticeRun& run : lattice_.axis[2].runs) {
       stop.did(run.length);
       std::array<std::uint32_t, 3> at = run.start;
@@ -188,8 +188,6 @@ class LatticeBuilder {
 
   const Mesh& mesh_;
   LatticeOptions options_;
-  unsigned threads_;
-  ExecutionContext* context_;
   Lattice lattice_;
 };
 
