@@ -23,13 +23,18 @@ class BoxTree {
   /// @param query a Box, or anything that tells by meets(Box) whether it may meet what is in a box.
   template <class Query = Box, class Visit>
   void visit(const Query& query, Visit visit) const {
-    walk(query, -1, visit);
+    visit_above(query, -1, visit);
   }
 
   /// The same for the indices > `above`.
   template <class Query = Box, class Visit>
   void visit_above(const Query& query, std::int64_t above, Visit visit) const {
-    walk(query, above, visit);
+    walk_halved_nodes(
+        nodes_, [&](const Node& node) { return node.max_index > above && query.meets(node.box); },
+        [&](std::uint32_t position) {
+          const std::uint32_t item = items_[position];
+          if (item > above && query.meets(boxes_[item])) visit(item);
+        });
   }
 
  private:
@@ -41,16 +46,6 @@ class BoxTree {
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
   std::size_t longest_axis(std::uint32_t first, std::uint32_t count) const;
-
-  template <class Query = Box, class Visit>
-  void walk(const Query& query, std::int64_t above, Visit visit) const {
-    walk_halved_nodes(
-        nodes_, [&](const Node& node) { return node.max_index > above && query.meets(node.box); },
-        [&](std::uint32_t position) {
-          const std::uint32_t item = items_[position];
-          if (item > above && query.meets(boxes_[item])) visit(item);
-        });
-  }
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> items_;
