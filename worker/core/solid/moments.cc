@@ -50,21 +50,15 @@ Vec3 middle(const Mesh& mesh) {
 }
 
 // The 15 different products of four coordinates.
-constexpr std::array<std::array<int, 4>, 15> kProducts = {{{0, 0, 0, 0},
-                                                           {0, 0, 0, 1},
-                                                           {0, 0, 0, 2},
-                                                           {0, 0, 1, 1},
-                                                           {0, 0, 1, 2},
-                                                           {0, 0, 2, 2},
-                                                           {0, 1, 1, 1},
-                                                           {0, 1, 1, 2},
-                                                           {0, 1, 2, 2},
-                                                           {0, 2, 2, 2},
-                                                           {1, 1, 1, 1},
-                                                           {1, 1, 1, 2},
-                                                           {1, 1, 2, 2},
-                                                           {1, 2, 2, 2},
-                                                           {2, 2, 2, 2}}};
+constexpr auto kProducts = [] {
+  std::array<std::array<int, 4>, 15> products{};
+  std::size_t count = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+      for (int k = j; k < 3; ++k)
+        for (int l = k; l < 3; ++l) products[count++] = {i, j, k, l};
+  return products;
+}();
 
 // The sum over all 24 permutations of the four factors w_i, w_j, w_k, w_l: by the lengths of their cycles
 // 1+1+1+1, 2+1+1 (six ways), 2+2 (three), 3+1 (four, each in two senses) and 4 (six senses).
