@@ -175,12 +175,9 @@ class Mending {
 void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
   const Mesh& mesh = result.mesh;
   DisjointSets pieces(mesh.points.size());
-  for (const Triangle& t : mesh.triangles) {
-    pieces.unite(t[0], t[1]);
-    pieces.unite(t[0], t[2]);
-  }
-  std::int64_t count = 0;
-  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) count += pieces.find(v) == v ? 1 : 0;
+  auto count = static_cast<std::int64_t>(mesh.points.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : {t[1], t[2]}) count -= pieces.unite(t[0], v) ? 1 : 0;
   // Euler and Poincare: a closed surface has half as many edges again as triangles.
   const auto characteristic =
       static_cast<std::int64_t>(mesh.points.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
