@@ -40,4 +40,15 @@ inline Vec3 twice_area(const Mesh& mesh, const Triangle& t) {
   return cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
 }
 
+/// Of a closed mesh, negative where it is inside out.  The sum of the tetrahedra from the first vertex: near the mesh, so
+/// that little cancels.
+inline double enclosed_volume(const Mesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& o = mesh.points.front();
+    sum += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
+  }
+  return sum / 6;
+}
+
 }  // namespace affskel::core

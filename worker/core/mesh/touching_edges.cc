@@ -122,16 +122,8 @@ MatedSides mate_across_solid(const Mesh& mesh, std::span<const EdgeSide> sides, 
   return mated;
 }
 
-bool is_inside_out(const Mesh& mesh) {
-  const Vec3 origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
-  double volume = 0;
-  for (const Triangle& t : mesh.triangles)
-    volume += dot(mesh.points[t[0]] - origin, cross(mesh.points[t[1]] - origin, mesh.points[t[2]] - origin));
-  return volume < 0;
-}
-
 std::uint32_t separate_touching_edges(Mesh& mesh) {
-  const bool inside_out = is_inside_out(mesh);
+  const bool inside_out = enclosed_volume(mesh) < 0;
   DisjointSets corners(3 * mesh.triangles.size());  // those that are one vertex
   std::vector<bool> touched(mesh.points.size(), false);
   const auto corner_at = [&](std::uint32_t half_edge, std::uint32_t vertex) {

@@ -20,9 +20,6 @@ using MatedSides = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// @return empty unless as many triangles pass the edge one way as the other, and all have an area.
 MatedSides mate_across_solid(const Mesh& mesh, std::span<const EdgeSide> sides, bool inside_out);
 
-/// Whether closed triangles that agree enclose less than nothing.
-bool is_inside_out(const Mesh& mesh);
-
 /// Gives parts of a solid that touch along edges vertices of their own there, where mate_across_solid can tell the
 /// parts; where they share both ends all the same, one within the edge.  Other edges, open ones among them, stay as they
 /// are.

@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
-#include "core/mesh/touching_edges.h"
 #include "core/mesh/unused_points.h"
 #include "core/repair/alpha_wrap.h"
 #include "core/repair/cloud_surface.h"
@@ -161,7 +160,7 @@ class Mending {
 
   // All of it, when it encloses less than nothing: what lies in what is for make_solid.
   void turn_outward() {
-    if (!result_.left.empty() || !is_inside_out(result_.mesh)) return;
+    if (!result_.left.empty() || !(enclosed_volume(result_.mesh) < 0)) return;
     for (Triangle& t : result_.mesh.triangles) std::swap(t[1], t[2]);
     tell("turned-out", 1, "the surface was inside out and turned");
   }

@@ -326,16 +326,6 @@ void place_mesh(const Solid& solid, const Lattice& lattice, Mesh& mesh) {
   }
 }
 
-/// Sum of the tetrahedra from the first vertex: near the mesh, so that little cancels.
-double enclosed_volume(const Mesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& o = mesh.points.front();
-    sum += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
-  }
-  return sum / 6;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> eroded_points(const FrameField& field, double level) {

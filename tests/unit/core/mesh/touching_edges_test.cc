@@ -41,7 +41,7 @@ TEST(TouchingEdges, PartsAreApart) {
   for (const auto& [from, to] : angles) volume += volume_of_wedge(from, to);
   for (const bool inside_out : {false, true}) {
     const Mesh mesh = inside_out ? reversed(wedges(angles)) : wedges(angles);
-    EXPECT_EQ(is_inside_out(mesh), inside_out);
+    EXPECT_EQ(enclosed_volume(mesh) < 0, inside_out);
     Mesh apart = mesh;
     EXPECT_EQ(separate_touching_edges(apart), 2 * (angles.size() - 1));
     const Solid solid = make_solid(apart);
@@ -61,7 +61,7 @@ TEST(TouchingEdges, TurnedAsOneLikes) {
     const double turn = n * std::numbers::pi / 6;
     Mesh mesh = wedges({{turn, turn + 1}, {turn + 1, turn + 2}, {turn + 3, turn + 4}});
     for (Vec3& p : mesh.points) p = {p.z + 0.3 * n * p.y, p.x, p.y};
-    if (is_inside_out(mesh)) mesh = reversed(mesh);
+    if (enclosed_volume(mesh) < 0) mesh = reversed(mesh);
     separate_touching_edges(mesh);
     EXPECT_EQ(make_solid(mesh).solid_volume.size(), 3U) << n;
   }
