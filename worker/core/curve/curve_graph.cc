@@ -63,7 +63,7 @@ class GraphOfCurve {
     graph_.branches.push_back(std::move(branch));
   }
 
-  // See thick_joints(): any other joint has nothing.
+  // See limb_hubs(): any other joint has nothing.
   bool is_body(std::uint32_t v) const { return ends_[v] > 2 && share_[v] > 0; }
 
   bool is_within(const CurveBranch& branch, std::size_t n) const {

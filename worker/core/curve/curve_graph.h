@@ -46,7 +46,7 @@ struct CurveGraph {
 };
 
 /// A point is a branch of its own, of one vertex, and so is a body that branches hang on: a place where they meet that has
-/// a share (see thick_joints()).
+/// a share (see limb_hubs()).
 /// @param places, radius, share per vertex: see limb_radii(), CurveSkeleton::share; segments as for polylines().
 CurveGraph curve_graph(std::span<const Vec3> places, std::span<const Segment> segments,
                        std::span<const double> radius, std::span<const double> share);

@@ -15,6 +15,7 @@
 #include "core/curve/hanging_patches.h"
 #include "core/curve/joined_links.h"
 #include "core/curve/limb_forks.h"
+#include "core/curve/limb_hubs.h"
 #include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
@@ -244,8 +245,10 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
       for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, beside, at, nearest); });
   const std::vector<double> radius =
       limb_radii({places, curve.segments, curve.slice, curve.slice, balls, solid.volume});
-  const auto forks = limb_forks(places, polylines(places.size(), curve.segments), sections, lattice.spacing);
-  const LimbTubes tubes(places, curve.segments, balls, radius, forks,
+  const auto lines = polylines(places.size(), curve.segments);
+  LimbHubs hubs = limb_hubs({places, lines, radius, lattice, curve.nearest, context});
+  const auto forks = limb_forks(places, lines, sections, lattice.spacing);
+  const LimbTubes tubes(places, curve.segments, balls, radius, forks, std::move(hubs),
                         [&](const Vec3& place, const Vec3& u, const Vec3& v, double reach) {
                           return sections.ellipse(place, u, v, reach);
                         });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 namespace affskel::core {
 
@@ -11,18 +10,6 @@ bool JointBalls::hold(const Vec3& at, double times) const {
   for (std::size_t n = 0; n < centres.size(); ++n)
     if (norm(at - centres[n]) < times * radii[n]) return true;
   return false;
-}
-
-double JointBalls::outside(const Vec3& at, double times) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < centres.size(); ++n)
-    least = std::min(least, norm(at - centres[n]) - times * radii[n]);
-  return least;
-}
-
-void JointBalls::add(const JointBalls& other) {
-  centres.insert(centres.end(), other.centres.begin(), other.centres.end());
-  radii.insert(radii.end(), other.radii.begin(), other.radii.end());
 }
 
 std::vector<JointBalls> joint_balls(std::span<const Vec3> places,

@@ -21,11 +21,6 @@ struct JointBalls {
 
   /// Whether a place lies within so many radii of one of them, and of the joint, by the largest one's.
   bool hold(const Vec3& at, double times) const;
-
-  /// How far a place is outside all of them, so many times as large; within less than 0.
-  double outside(const Vec3& at, double times) const;
-
-  void add(const JointBalls& other);
 };
 
 /// @param lines see polylines(), by numbers in places.

@@ -22,7 +22,7 @@ struct LimbRadiiInput {
 /// either side, the volume that belongs to them.  A vertex that has less than its slice lies in a thicker limb, as far as
 /// that goes: there its own is as thick as where it comes out.  The optimal section tells no thickness: all planes through a place
 /// on the axis of a tube cut off as much, however they are tilted.
-/// @return per vertex; 0 for one without a line, and for a body that limbs hang on (see thick_joints()) that of a ball as large.
+/// @return per vertex; 0 for one without a line, and for a body that limbs hang on (see limb_hubs()) that of a ball as large.
 std::vector<double> limb_radii(const LimbRadiiInput& input);
 
 }  // namespace affskel::core

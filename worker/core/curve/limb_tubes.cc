@@ -8,7 +8,6 @@
 #include "core/base/basis.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
-#include "core/curve/thick_joints.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
@@ -41,49 +40,65 @@ double LimbTubes::across(const Ring& ring, const Vec3& way) {
 
 LimbTubes::LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments,
                      std::span<const double> ball, std::span<const double> radius,
-                     std::span<const std::vector<LimbFork>> forks, const EllipseAt& ellipse_at)
+                     std::span<const std::vector<LimbFork>> forks, LimbHubs hubs, const EllipseAt& ellipse_at)
     : places_(places),
       ball_(ball),
       radius_(radius),
       forks_(forks),
+      hubs_(std::move(hubs)),
       limb_of_(places.size(), kNone),
       rank_(places.size(), 0),
       is_shared_(places.size(), 0),
       at_joint_(places.size()) {
-  for (auto& line : polylines(places.size(), segments)) {
-    const auto number = static_cast<std::uint32_t>(limbs_.size());
-    for (std::uint32_t n = 0; n < line.size(); ++n) {
-      limb_of_[line[n]] = number;
-      rank_[line[n]] = n;
-    }
-    for (const std::uint32_t v : {line.front(), line.back()}) at_joint_[v].push_back(number);
-    limbs_.push_back({.vertices = std::move(line)});
-  }
-  std::vector<std::vector<std::uint32_t>> lines;
-  for (const Limb& limb : limbs_) lines.push_back(limb.vertices);
+  auto lines = polylines(places.size(), segments);
   joints_ = joint_balls(places, lines, ball);
+  for (auto& line : lines) {
+    const auto number = static_cast<std::uint32_t>(limbs_.size());
+    limbs_.push_back(cut(std::move(line)));
+    const Limb& limb = limbs_.back();
+    for (std::uint32_t n = 0; n < limb.vertices.size(); ++n) {
+      limb_of_[limb.vertices[n]] = number;
+      rank_[limb.vertices[n]] = n;
+    }
+    if (!limb.vertices.empty())
+      for (const std::uint32_t v : limb.ends) at_joint_[v].push_back(number);
+  }
   for (std::uint32_t v = 0; v < places.size(); ++v) {
-    if (at_joint_[v].size() < 3)
+    if (at_joint_[v].size() < 3 && !hubs_.at(v))
       at_joint_[v].clear();
     else
       limb_of_[v] = kNone;
   }
   for (Limb& limb : limbs_) {
-    if (!is_joint(limb.end(0)) && !is_joint(limb.end(1))) continue;
+    if (limb.vertices.empty() || (!is_joint(limb.ends[0]) && !is_joint(limb.ends[1]))) continue;
     add_rings(ellipse_at, limb);
     go_on_into_joints(limb);
   }
-  std::vector<double> sizes;
-  for (const Limb& limb : limbs_) sizes.push_back(limb.size);
-  thick_ = thick_joints(places, lines, sizes, joints_);
   for (Limb& limb : limbs_)
-    for (std::size_t end = 0; end < 2; ++end) compare(limb, end);
+    for (std::size_t end = 0; end < 2 && !limb.vertices.empty(); ++end) compare(limb, end);
   find_hidden();
   for (const Limb& limb : limbs_)
     for (const auto& thicker : limb.thicker)
       for (const std::uint32_t other : thicker)
         for (const std::uint32_t v : limb.vertices)
           if (!is_shared_[v] && holds(limbs_[other], places[v])) is_shared_[v] = 1;
+}
+
+// What of a line is no hub's.
+LimbTubes::Limb LimbTubes::cut(std::vector<std::uint32_t> line) {
+  const auto is_limbs = [&](std::uint32_t v) { return !hubs_.at(v); };
+  Limb limb{{}, {line.front(), line.back()}};
+  for (std::uint32_t& end : limb.ends)
+    if (const LimbHub* hub = hubs_.at(end)) end = hub->joint;
+  const auto last = std::find_if(line.rbegin(), line.rend(), is_limbs).base();
+  const auto first = std::find_if(line.begin(), last, is_limbs);
+  if (last - first > 1) {
+    limb.vertices.assign(first, last);
+    return limb;
+  }
+  const std::uint32_t hub = hubs_.of[is_limbs(line.front()) ? line.back() : line.front()];
+  for (std::size_t n = 1; n + 1 < line.size(); ++n) hubs_.of[line[n]] = hub;
+  return limb;
 }
 
 // The planes turn with the line, and not about it, so that outlines can be compared.
@@ -114,10 +129,10 @@ void LimbTubes::add_rings(const EllipseAt& ellipse_at, Limb& limb) const {
 
 // How many vertices from an end lie near the joint there; 0 where none is.
 std::size_t LimbTubes::in_joint(const Limb& limb, std::size_t end) const {
-  const std::uint32_t joint = limb.end(end);
+  const std::uint32_t joint = limb.ends[end];
   if (!is_joint(joint)) return 0;
   std::size_t count = 1;
-  while (count + 1 < limb.vertices.size() &&
+  while (!hubs_.at(joint) && count + 1 < limb.vertices.size() &&
          joints_[joint].hold(places_[limb.at(end, count)], JointBalls::kNear))
     ++count;
   return count;
@@ -171,8 +186,8 @@ double LimbTubes::beyond_joint(const Limb& limb, std::size_t end, const Ring& le
   const Ring& ring = limb.rings[limb.index(end, 0)];
   const Vec3 out = (end == 0 ? -1. : 1.) * cross(ring.u, ring.v);
   double sum = 0, count = 0;
-  for (const LimbFork& fork : forks_[limb.end(end)]) {
-    const Vec3 way = fork.place - places_[limb.end(end)];
+  for (const LimbFork& fork : forks_[limb.ends[end]]) {
+    const Vec3 way = fork.place - places_[limb.ends[end]];
     const double along = dot(way, out), rest = 1 - across(leaving, way), weight = ahead(way, out);
     const bool is_own = fork.limbs[0] == self || fork.limbs[1] == self;
     if (is_own || along <= 0 || rest <= 0 || !(weight > 0)) continue;
@@ -192,7 +207,7 @@ void LimbTubes::go_on_into_joints(Limb& limb) {
       ring.thickness = leaving[end].thickness;
       is_shared_[limb.at(end, n)] = 1;
     }
-    if (is_joint(limb.end(end)))
+    if (is_joint(limb.ends[end]) && !hubs_.at(limb.ends[end]))
       limb.rings[limb.index(end, 0)].thickness = beyond_joint(limb, end, leaving[end]);
   }
   std::vector<double> radii;
@@ -209,7 +224,7 @@ void LimbTubes::go_on_into_joints(Limb& limb) {
 }
 
 void LimbTubes::compare(Limb& limb, std::size_t end) const {
-  std::vector<std::uint32_t> round = at_joint_[limb.end(end)];
+  std::vector<std::uint32_t> round = at_joint_[limb.ends[end]];
   std::stable_sort(round.begin(), round.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return limbs_[a].size > limbs_[b].size; });
   for (const std::uint32_t other : round) {
@@ -219,21 +234,23 @@ void LimbTubes::compare(Limb& limb, std::size_t end) const {
   }
   // Only the thickest goes on beyond its joint.
   if (!limb.thicker[end].empty())
-    limb.rings[limb.index(end, 0)].thickness = 0.5 * norm(places_[limb.at(end, 1)] - places_[limb.end(end)]);
+    limb.rings[limb.index(end, 0)].thickness =
+        0.5 * norm(places_[limb.at(end, 1)] - places_[limb.at(end, 0)]);
 }
 
 // Links and loops whose lines lie in the tubes of those that they meet, shorter ones first.
 void LimbTubes::find_hidden() {
   std::vector<std::uint32_t> order;
   for (std::uint32_t n = 0; n < limbs_.size(); ++n)
-    if (is_joint(limbs_[n].end(0)) && is_joint(limbs_[n].end(1))) order.push_back(n);
+    if (!limbs_[n].vertices.empty() && is_joint(limbs_[n].ends[0]) && is_joint(limbs_[n].ends[1]))
+      order.push_back(n);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return limbs_[a].vertices.size() < limbs_[b].vertices.size();
   });
   for (const std::uint32_t n : order) {
     Limb& limb = limbs_[n];
     limb.is_hidden = std::all_of(limb.vertices.begin(), limb.vertices.end(), [&](std::uint32_t v) {
-      return outside_thick(limb.end(0), places_[v]) < 0 || outside_thick(limb.end(1), places_[v]) < 0 ||
+      return outside_hub(limb.ends[0], places_[v]) < 0 || outside_hub(limb.ends[1], places_[v]) < 0 ||
              any_beside(limb, [&](const Limb& other) { return holds(other, places_[v]); });
     });
   }
@@ -290,7 +307,7 @@ std::uint32_t LimbTubes::off_joint(std::uint32_t vertex, const Vec3& at) const {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::uint32_t next = limbs_[n].at(end, 1);
       const double way = norm(at - places_[next]);
-      if (limbs_[n].end(end) != vertex || is_joint(next) || way >= least) continue;
+      if (limbs_[n].ends[end] != vertex || is_joint(next) || way >= least) continue;
       least = way;
       nearest = next;
     }
@@ -298,19 +315,36 @@ std::uint32_t LimbTubes::off_joint(std::uint32_t vertex, const Vec3& at) const {
   return nearest;
 }
 
-double LimbTubes::outside_thick(std::uint32_t vertex, const Vec3& at) const {
-  if (thick_[vertex] == kNoThickJoint) return std::numeric_limits<double>::infinity();
-  return joints_[thick_[vertex]].outside(at, kRoundest);
+double LimbTubes::outside_hub(std::uint32_t joint, const Vec3& at) const {
+  const LimbHub* hub = hubs_.at(joint);
+  return hub ? hub->outside(at) : std::numeric_limits<double>::infinity();
+}
+
+// What is nearest to a hub's own lines, or to its limbs' within it.
+std::uint32_t LimbTubes::about_hub(std::uint32_t joint, const Vec3& at) const {
+  double least = outside_hub(joint, at);
+  std::uint32_t owner = joint;
+  if (least < 0) return owner;
+  for (const std::uint32_t number : at_joint_[joint]) {
+    const Limb& limb = limbs_[number];
+    if (limb.is_hidden || limb.ends[0] == limb.ends[1]) continue;
+    const std::size_t n = nearest_in(limb, at);
+    const double depth = depth_below(limb, n, at);
+    if (depth >= least) continue;
+    least = depth;
+    owner = own_vertex(limb, n);
+  }
+  return owner;
 }
 
 std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const {
-  if (outside_thick(nearest, at) < 0) return thick_[nearest];
+  if (const LimbHub* hub = hubs_.at(nearest)) return about_hub(hub->joint, at);
   if (is_joint(nearest)) nearest = off_joint(nearest, at);
   if (limb_of_[nearest] == kNone) return nearest;
   const Limb& limb = limbs_[limb_of_[nearest]];
-  const std::array<double, 2> outside{outside_thick(limb.end(0), at), outside_thick(limb.end(1), at)};
+  const std::array<double, 2> outside{outside_hub(limb.ends[0], at), outside_hub(limb.ends[1], at)};
   const std::size_t nearer = outside[1] < outside[0] ? 1 : 0;
-  if (outside[nearer] < 0) return thick_[limb.end(nearer)];
+  if (outside[nearer] < 0) return limb.ends[nearer];
   if (!limb.is_hidden) {
     for (const auto& thicker : limb.thicker)
       for (const std::uint32_t number : thicker) {
@@ -325,11 +359,11 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
   std::uint32_t owner = nearest;
   if (outside[nearer] < least) {
     least = outside[nearer];
-    owner = thick_[limb.end(nearer)];
+    owner = limb.ends[nearer];
   }
   // A handle has no more than what is nearest to it: noise makes some within a body's hips.
   any_beside(limb, [&](const Limb& other) {
-    const bool is_handle = other.end(0) == other.end(1) && other.size <= limb.size;
+    const bool is_handle = other.ends[0] == other.ends[1] && other.size <= limb.size;
     if (is_handle || distance_to(other.box, at) >= least) return false;
     const std::size_t n = nearest_in(other, at);
     const double depth = depth_below(other, n, at);

@@ -10,6 +10,7 @@
 #include "core/base/vec3.h"
 #include "core/curve/joint_balls.h"
 #include "core/curve/limb_forks.h"
+#include "core/curve/limb_hubs.h"
 #include "core/curve/limb_sections.h"
 #include "core/mesh/box.h"
 #include "core/mesh/mesh.h"
@@ -22,8 +23,8 @@ namespace affskel::core {
 /// ellipsoid, no farther than where the limbs beyond part from each other. What lies there in the tube of a limb that is
 /// thicker, all in all, belongs to that; what lies in its own tube to that; else it belongs to the limb whose tube it lies
 /// deepest in, or is nearest to. So an arm begins where it leaves the trunk, from the armpit to the top of the shoulder,
-/// equal limbs share their joint evenly, and a joint itself has nothing, unless it is thicker than all of them (see
-/// thick_joints()): then it is the thickest, and its tube is its balls. A link or loop whose line lies in the tubes of the
+/// equal limbs share their joint evenly, and a joint itself has nothing, unless it is a hub (see limb_hubs()): then it
+/// is the thickest, and its tube is an ellipsoid. A link or loop whose line lies in the tubes of the
 /// others that it meets, whole, has nothing either. Keeps references to its arguments.
 class LimbTubes {
  public:
@@ -35,7 +36,7 @@ class LimbTubes {
   /// @param segments as for polylines().
   /// @param forks per vertex, see limb_forks(), of the same polylines.
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,
-            std::span<const double> radius, std::span<const std::vector<LimbFork>> forks,
+            std::span<const double> radius, std::span<const std::vector<LimbFork>> forks, LimbHubs hubs,
             const EllipseAt& ellipse_at);
 
   /// The vertex that a place belongs to.
@@ -52,15 +53,15 @@ class LimbTubes {
     double thickness = 0;
   };
   struct Limb {
-    std::vector<std::uint32_t> vertices;
-    std::vector<Ring> rings = {};  // per vertex; none of a line by itself
-    double size = 0;               // how thick it is in the middle of its vertices
+    std::vector<std::uint32_t> vertices;  // none where all lies in a hub
+    std::array<std::uint32_t, 2> ends;    // a hub's joint where a hub has what lies before
+    std::vector<Ring> rings = {};         // per vertex; none of a line by itself
+    double size = 0;                      // how thick it is in the middle of its vertices
     std::array<std::vector<std::uint32_t>, 2> thicker = {},
                                               others = {};  // that meet it there, the thickest first
     Box box = {};                                           // round the tube
     bool is_hidden = false;                                 // in the tubes of others, whole
 
-    std::uint32_t end(std::size_t which) const { return which == 0 ? vertices.front() : vertices.back(); }
     std::uint32_t at(std::size_t which, std::size_t n) const {  // the n-th from an end
       return vertices[index(which, n)];
     }
@@ -70,6 +71,7 @@ class LimbTubes {
   };
 
   static double across(const Ring& ring, const Vec3& way);
+  Limb cut(std::vector<std::uint32_t> line);
   bool is_joint(std::uint32_t vertex) const { return !at_joint_[vertex].empty(); }
   void add_rings(const EllipseAt& ellipse_at, Limb& limb) const;
   std::size_t in_joint(const Limb& limb, std::size_t end) const;
@@ -90,13 +92,14 @@ class LimbTubes {
   std::uint32_t own_vertex(const Limb& limb, std::size_t n) const;
   bool holds(const Limb& limb, const Vec3& at) const;
   std::uint32_t off_joint(std::uint32_t vertex, const Vec3& at) const;
-  double outside_thick(std::uint32_t vertex, const Vec3& at) const;
+  double outside_hub(std::uint32_t joint, const Vec3& at) const;
+  std::uint32_t about_hub(std::uint32_t joint, const Vec3& at) const;
 
   std::span<const Vec3> places_;
   std::span<const double> ball_, radius_;
   std::span<const std::vector<LimbFork>> forks_;  // per vertex
-  std::vector<JointBalls> joints_;                // per vertex
-  std::vector<std::uint32_t> thick_;              // per vertex: see thick_joints()
+  LimbHubs hubs_;
+  std::vector<JointBalls> joints_;  // per vertex
   std::vector<Limb> limbs_;
   std::vector<std::uint32_t> limb_of_, rank_;  // per vertex that is no joint: its limb, and its place there
   std::vector<char> is_shared_;                // per vertex: near a joint, or in a thicker limb's tube

@@ -17,6 +17,8 @@ struct Tubed : DrawnLines {
   std::function<Vec3(const Vec3& place)> wide = [](const Vec3&) { return Vec3{1, 1, 1}; };
 
   std::vector<LimbFork> forks;    // of the joint, which is the first vertex
+  std::vector<LimbHub> hubs;      // at most one
+  std::uint32_t of_hub = 0;       // vertices before that are the hub's
   std::size_t little = SIZE_MAX;  // from that vertex on little is nearest
 
   std::uint32_t nearest(const Vec3& at) const {
@@ -40,7 +42,9 @@ struct Tubed : DrawnLines {
       radius.push_back((v < little ? 1 : 0.1) * ball[v] * std::sqrt(wide(places[v]).x));
     std::vector<std::vector<LimbFork>> parts(places.size());
     for (const LimbFork& fork : forks) parts[0].push_back(fork);
-    return places[LimbTubes(places, segments, ball, radius, parts, ellipse).vertex_of(at, from)];
+    std::vector<std::uint32_t> of(places.size(), kNoHub);
+    for (std::uint32_t v = 0; v < of_hub; ++v) of[v] = 0;
+    return places[LimbTubes(places, segments, ball, radius, parts, {hubs, of}, ellipse).vertex_of(at, from)];
   }
 };
 
@@ -148,17 +152,26 @@ TEST(LimbTubes, ALinkOfTwoJointsHasNothing) {
   for (const Vec3& at : lines.places) EXPECT_GT(norm(lines.owner(at) - Vec3{0.05, 0, 0}), 0.06);
 }
 
-// Four legs: each begins where it leaves the body.
-TEST(LimbTubes, AJointThickerThanItsLimbsHasItsBalls) {
+// A flat body, under which the line runs from leg to leg: each begins where it leaves the body.
+TEST(LimbTubes, AHubHasItsEllipsoid) {
   Tubed lines;
-  const std::uint32_t body = lines.add({0, 0, 0}, 2);
+  const std::uint32_t body = lines.add({0, 0, 0}, 0.7);
+  const std::uint32_t other = lines.go(body, {0.1, 0, 0}, 4, 0.7);
   const Vec3 step[] = {{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1, 0}};
-  for (const Vec3& way : step) lines.go(body, way, 80, 0.5);
-  for (const Vec3& way : step) {
-    EXPECT_EQ(lines.owner(21 * way), lines.places[body]);
-    EXPECT_LT(norm(lines.owner(23 * way) - 23 * way), 1e-9);
-  }
-  EXPECT_EQ(lines.owner({1.7, 1.5, 0}), lines.places[body]) << "nearer to the body's ball than to a leg";
+  std::vector<std::uint32_t> roots;
+  for (const Vec3& way : step) roots.push_back(lines.go(way.x + way.y > 0 ? other : body, way, 10, 0.7));
+  lines.of_hub = static_cast<std::uint32_t>(lines.places.size());
+  for (std::size_t n = 0; n < 4; ++n) lines.go(roots[n], step[n], 60, 0.5);
+  const Vec3 above{0.2, 0, 1};
+  lines.hubs = {{body, above, {{{0.25, 0, 0}, {0, 0.25, 0}, {0, 0, 1}}}}};  // 2 wide, 1 high
+  EXPECT_EQ(lines.owner({0.2, 0, 1.95}), lines.places[body]);
+  EXPECT_EQ(lines.owner({1.5, 1, 1.3}), lines.places[body]) << "nearer to a leg's line";
+  EXPECT_EQ(lines.owner({0.2, 0.2, -0.3}), lines.places[body]) << "under it, nearest to its lines";
+  EXPECT_EQ(lines.owner({2.05, 0, 0.9}), lines.places[body]) << "within it, above a leg";
+  const Vec3 leg = lines.owner({2.2, 0, 0.45});
+  EXPECT_GT(leg.x, 2) << "outside it";
+  EXPECT_LT(norm(lines.owner({4, 0.1, 0.1}) - Vec3{4, 0, 0}), 1e-9);
+  EXPECT_GT(lines.owner({1.3, 0, -0.1}).x, 1.4) << "nearest to the hub's own line, and to a leg's tube";
 }
 
 TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {

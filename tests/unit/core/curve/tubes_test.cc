@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "core/curve/curved.h"
@@ -214,6 +215,32 @@ TEST(Tubes, FourThatMeetHaveOneJoint) {
   EXPECT_EQ(*std::max_element(solid.graph.degree.begin(), solid.graph.degree.end()), 4U);
   for (std::size_t n = 1; n < 3; ++n) EXPECT_NEAR(solid.to(tubes[n].to).angle, 90, 2);
   EXPECT_NEAR(solid.to(tubes[3].to).angle, 180, 2);
+}
+
+// An octopus: lines run below its head from arm to arm, in another way at each spacing.
+TEST(Tubes, EqualArmsOfABallAreEqualAndItIsOnePart) {
+  std::vector<Tube> arms;
+  for (int n = 0; n < 8; ++n) {
+    const Vec3 out{std::cos(n * pi / 4 + 0.1), std::sin(n * pi / 4 + 0.1), 0};
+    arms.push_back({0.8 * out + Vec3{0, 0, -0.8}, 5 * out + Vec3{0, 0, -1.6}, 0.4});
+  }
+  const ImplicitFunction f = [&](const Vec3& p) {
+    double least = norm(p - Vec3{0, 0, 0.8}) - 1.6;
+    for (const Tube& arm : arms) least = std::min(least, arm.distance(p));
+    return least;
+  };
+  Mesh mesh = mesh_zero_set(f, {{-5.6, -5.6, -2.2}, {5.6, 5.6, 2.6}, 0.1});
+  fair_onto(f, 1e-3, 3, mesh);
+  for (const double points : {25'000., 45'000., 90'000.}) {
+    const Measured solid = measured(mesh, points);
+    std::vector<double> shares;
+    for (const Tube& arm : arms) shares.push_back(solid.to(arm.to).share);
+    const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+    EXPECT_LT(*most / *least, 1.06) << points;  // 3 % either way
+    const CurveBranch& body = solid.graph.branches[0];
+    EXPECT_EQ(body.kind, BranchKind::kPoint) << points;
+    EXPECT_NEAR(body.share + std::accumulate(shares.begin(), shares.end(), 0.0), 1, 0.001) << points;
+  }
 }
 
 }  // namespace

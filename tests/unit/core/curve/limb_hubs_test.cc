@@ -1,0 +1,119 @@
+#include "core/curve/limb_hubs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/curve/drawn_lines.h"
+#include "core/mesh/polylines.h"
+#include "core/ridge/row_band.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kSide = 4;
+
+// A cube, and lines through its middle, or from one that is beside it; they go on beyond it.
+struct Cube : DrawnLines {
+  Lattice lattice;
+  Vec3 middle;
+  std::vector<double> radius;
+
+  Cube() {
+    LatticeOptions options;
+    options.spacing = 0.2;
+    lattice = make_lattice(make_solid(make_box(kSide, kSide, kSide)), options);
+    each_point([&](const Vec3& at, std::uint32_t) {
+      middle = middle + (1 / static_cast<double>(lattice.points)) * at;
+    });
+  }
+  template <class Visit>
+  void each_point(const Visit& visit) const {
+    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      visit(lattice.spacing * Vec3{double(i), double(j), double(k)}, rank);
+    });
+  }
+  // Limbs of 0.5 whose radius grows to `within` towards the joint, by so much of the way.
+  void go_out(std::uint32_t joint, const std::vector<Vec3>& steps, double within, double grows) {
+    radius.resize(places.size(), within);
+    for (const Vec3& step : steps) {
+      go(joint, step, 80, 0.5);
+      for (int n = 1; n <= 80; ++n)
+        radius.push_back(std::max(0.5, std::min(within, 0.5 + grows * (2 - 0.1 * n))));
+    }
+  }
+  LimbHubs found() const {
+    std::vector<std::uint32_t> nearest(lattice.points, 0);
+    each_point([&](const Vec3& at, std::uint32_t rank) {
+      for (std::uint32_t v = 1; v < places.size(); ++v)
+        if (norm(places[v] - at) < norm(places[nearest[rank]] - at)) nearest[rank] = v;
+    });
+    return limb_hubs({places, polylines(places.size(), segments), radius, lattice, nearest});
+  }
+};
+
+const std::vector<Vec3> kCross{{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1, 0}};
+
+TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
+  Cube cube;
+  const std::uint32_t joint = cube.add(cube.middle, 2);
+  cube.go_out(joint, kCross, 2.2, 2);
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  const LimbHub& hub = found.hubs[0];
+  EXPECT_EQ(hub.joint, joint);
+  EXPECT_LT(norm(hub.centre - cube.middle), 1e-9);
+  const double axis = 1.1 * std::sqrt(5.0 / 12) * kSide;  // of the ellipsoid with a cube's moments
+  for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, 0.6, 0.8}})
+    for (const double off : {-0.1, 0.1})
+      EXPECT_NEAR(hub.outside(cube.middle + (axis + off) * way), off, 0.02);
+  EXPECT_LT(hub.outside(cube.middle), 0);
+  for (std::uint32_t v = 0; v < cube.places.size(); ++v)
+    EXPECT_EQ(found.at(v) == &hub, norm(cube.places[v] - cube.middle) < axis) << v;
+}
+
+// Lines beside the cube's middle, from arm to arm, and a link between them that is shorter than thick.
+TEST(LimbHubs, AreOneHoweverLinesRunInThem) {
+  Cube cube;
+  const std::uint32_t one = cube.add(cube.middle + Vec3{-1, 0, -1.5}, 2);
+  const std::uint32_t other = cube.go(one, {0.1, 0, 0}, 20, 1);
+  cube.radius.assign(cube.places.size(), 1.1);
+  cube.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5);
+  cube.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5);
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[one], 0U);
+  EXPECT_EQ(found.of[other], 0U);
+  EXPECT_LT(norm(found.hubs[0].centre - cube.middle), 0.05);
+}
+
+TEST(LimbHubs, AreNotWhereLimbsGrowSlowly) {
+  Cube cube;
+  cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 0.3);
+  EXPECT_TRUE(cube.found().hubs.empty());
+}
+
+TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
+  Cube cube;
+  const std::uint32_t joint = cube.add(cube.middle, 2);
+  cube.go_out(joint, kCross, 2.2, 2);
+  cube.go(joint, {0, 0, 0.1}, 80, 1.7);
+  cube.radius.resize(cube.places.size(), 1.7);  // a ball as large as the cube has 2.48
+  EXPECT_TRUE(cube.found().hubs.empty());
+}
+
+TEST(LimbHubs, HoldNoLimbsEnd) {
+  Cube cube;
+  const std::uint32_t joint = cube.add(cube.middle, 2);
+  cube.go_out(joint, kCross, 2.2, 2);
+  cube.go(joint, {0, 0, 0.1}, 20, 0.5);
+  cube.radius.resize(cube.places.size(), 0.5);
+  EXPECT_TRUE(cube.found().hubs.empty());
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/base/execution_context.h"
+#include "core/base/matrix3.h"
+#include "core/base/vec3.h"
+#include "core/lattice/lattice.h"
+
+namespace affskel::core {
+
+constexpr std::uint32_t kNoHub = std::numeric_limits<std::uint32_t>::max();
+
+/// A body that limbs hang on, as an octopus's head, an elephant's trunk or a chair's seat: an ellipsoid.
+struct LimbHub {
+  std::uint32_t joint = 0;  ///< the vertex that stands for it
+  Vec3 centre;
+  Matrix3 form{};  ///< (form * way) . way is 1 on the ellipsoid
+
+  /// How far a place is outside, along the way from the centre; within less than 0.
+  double outside(const Vec3& at) const;
+};
+
+struct LimbHubs {
+  std::vector<LimbHub> hubs;
+  std::vector<std::uint32_t> of;  ///< per vertex: its hub; kNoHub of what is a limb's
+
+  const LimbHub* at(std::uint32_t vertex) const { return of[vertex] == kNoHub ? nullptr : &hubs[of[vertex]]; }
+};
+
+struct LimbHubsInput {
+  std::span<const Vec3> places;                       ///< per vertex
+  std::span<const std::vector<std::uint32_t>> lines;  ///< see polylines(), by numbers in places
+  std::span<const double> radius;  ///< per vertex: see limb_radii(), of what is nearest to it
+  const Lattice& lattice;
+  std::span<const std::uint32_t> nearest;  ///< per point: a vertex
+  ExecutionContext* context = nullptr;     ///< asked whether to stop
+};
+
+/// Of what is nearest to a line, a limb has what makes about a tube.  From its middle on towards a joint it ends where that
+/// suddenly grows, and a link that is shorter than thick is none.  What no limb has, as far as it hangs together in the
+/// solid, is a hub where it is clearly more than a ball as thick as the thickest limb there: lines may run beside its
+/// middle, from arm to arm, in another way at each spacing.  As large as an ellipsoid with its moments, it takes what is
+/// nearest to lines in that, too, and so on; one that would then hold a limb's free end is none.
+LimbHubs limb_hubs(const LimbHubsInput& input);
+
+}  // namespace affskel::core
