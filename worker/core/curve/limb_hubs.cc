@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSudden = 0.4;  // of the way along a line: what a limb's radius grows by where it ends
 constexpr double kThick = 1.55;  // times as thick as the limbs
-constexpr double kRound = 1.1;   // times the ellipsoid: what lies just outside is no limb's
+constexpr double kGrown = 1.1;   // times the ellipsoid: what lies just outside is no limb's
 
 // Of places, each as much.
 struct HubMoments {
@@ -168,7 +168,7 @@ class FindHubs {
     const Matrix3 square{hub.centre.x * hub.centre, hub.centre.y * hub.centre, hub.centre.z * hub.centre};
     const double cell = in_.lattice.spacing * in_.lattice.spacing / 12;
     const Matrix3 spread = (1 / all.count) * all.second + (-1.0 * square + cell * kIdentity3);
-    hub.form = (1 / (5 * kRound * kRound)) * inverse_transposed(spread);
+    hub.form = (1 / (5 * kGrown * kGrown)) * inverse_transposed(spread);
   }
 
   const LimbHubsInput& in_;

@@ -15,7 +15,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kSide = 4;
+constexpr double kCubeSide = 4;
 
 // A cube, and lines through its middle, or from one that is beside it; they go on beyond it.
 struct Cube : DrawnLines {
@@ -26,7 +26,7 @@ struct Cube : DrawnLines {
   Cube() {
     LatticeOptions options;
     options.spacing = 0.2;
-    lattice = make_lattice(make_solid(make_box(kSide, kSide, kSide)), options);
+    lattice = make_lattice(make_solid(make_box(kCubeSide, kCubeSide, kCubeSide)), options);
     each_point([&](const Vec3& at, std::uint32_t) {
       middle = middle + (1 / static_cast<double>(lattice.points)) * at;
     });
@@ -67,7 +67,7 @@ TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
   const LimbHub& hub = found.hubs[0];
   EXPECT_EQ(hub.joint, joint);
   EXPECT_LT(norm(hub.centre - cube.middle), 1e-9);
-  const double axis = 1.1 * std::sqrt(5.0 / 12) * kSide;  // of the ellipsoid with a cube's moments
+  const double axis = 1.1 * std::sqrt(5.0 / 12) * kCubeSide;  // of the ellipsoid with a cube's moments
   for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, 0.6, 0.8}})
     for (const double off : {-0.1, 0.1})
       EXPECT_NEAR(hub.outside(cube.middle + (axis + off) * way), off, 0.02);
