@@ -73,7 +73,8 @@ class ChordDescent::Work {
   SaddleSearch& saddles() { return saddles_; }
 
  private:
-  static bool valid(const ChordPiece& piece) { return piece.found && piece.volume > 0; }
+  // Where a solid overlaps itself, sections may be turned inside out.
+  static bool valid(const ChordPiece& piece) { return piece.found && piece.volume > 0 && piece.area > 0; }
 
   ChordPiece find(const Vec3& d) {
     ++evaluations_;

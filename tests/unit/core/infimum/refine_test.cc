@@ -25,6 +25,7 @@
 #include "core/infimum/refinement.h"
 #include "core/infimum/samples.h"
 #include "core/lattice/lattice.h"
+#include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/stopping_context.h"
@@ -316,6 +317,16 @@ TEST(RefineTest, FollowsAffineMaps) {
       differ += std::abs(there.erosion(p) / (ratio * here.erosion(p)) - 1) > 1e-6;
     }
     EXPECT_EQ(differ, 0U) << mesh.triangles.size();
+  }
+}
+
+// Noise that makes a body cross itself turns sections inside out.
+TEST(RefineTest, NoSlopeIsNegativeWhereASolidOverlapsItself) {
+  const Mesh body = make_body({500, 1800});
+  const Refined refined(perturb(body, {.sigma = 0.015 * box_diagonal(body), .seed = 3}), 2000, "sphere:100");
+  for (std::uint32_t p = 0; p < refined.lattice.points; ++p) {
+    EXPECT_GE(refined.values[p].slope, 0) << p;
+    EXPECT_LE(refined.erosion(p), refined.seeds.value[p].erosion * (1 + 1e-9)) << p;
   }
 }
 
