@@ -101,7 +101,6 @@ class LeaseLoop {
         last_work_ = Clock::now();
         continue;
       }
-      settle_last_report();
       if (options_.idle_exit.count() > 0 && idle_time_left().count() <= 0) {
         spdlog::info(base::logfmt("leaving", {{"worker", request_.worker().id()}, {"reason", "idle"}}));
         break;
@@ -117,6 +116,7 @@ class LeaseLoop {
  private:
   std::optional<v1::Lease> next_lease() {
     if (next_) return std::exchange(next_, std::nullopt);
+    settle_last_report();  // one that failed is said at once: its task may be all that there is to do
     describe_hands({});
     const auto wait =
         options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kMinWait, kLongestWait) : kLongestWait;

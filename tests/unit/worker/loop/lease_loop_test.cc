@@ -128,6 +128,15 @@ TEST_F(LoopTest, AFailedLastReportFailsItsOwnTask) {
   EXPECT_EQ(server_.calls("ReturnLease"), 1) << "what the second computed may depend on the first";
 }
 
+TEST_F(LoopTest, AFailedLastReportIsSaidBeforeItWaitsForWork) {
+  server_.fail_next("ReportErosion", {grpc::StatusCode::INVALID_ARGUMENT, "the numbers do not add up"});
+  offer(erode_lease(prepared_, "a", 0, 256));
+  EXPECT_EQ(run(), 0);
+  ASSERT_EQ(server_.failures().size(), 1U);
+  for (const v1::LeaseTaskRequest& request : server_.lease_requests())
+    EXPECT_TRUE(request.wait_ms() == 0 || request.held_size() == 0) << "its report had not been heard of";
+}
+
 TEST_F(LoopTest, DerivesSkeletonAndSurface) {
   const std::string field = finished_field(prepared_);
   server_.set_input(v1::ARTIFACT_KIND_FIELD, field);
