@@ -88,6 +88,7 @@ class GraphOfCurve {
     const std::vector<std::uint32_t> owner = graph_.part;
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
       for (const bool from_last : {false, true}) give_joint(b, from_last, owner);
+    while (give_bodies()) continue;
     for (std::size_t v = 0; v < places_.size(); ++v) graph_.branches[graph_.part[v]].share += share_[v];
   }
 
@@ -97,6 +98,25 @@ class GraphOfCurve {
     if (ends_[at(0)] < 3) return;
     for (std::size_t n = 1; n + 1 < vertices.size() && share_[at(n)] == 0; ++n)
       graph_.part[at(n)] = owner[at(0)];
+  }
+
+  // What hangs together with a body and has nothing lies in it.  @return whether there was any.
+  bool give_bodies() {
+    const auto is_point = [&](std::uint32_t v) {
+      return graph_.branches[graph_.part[v]].vertices.size() == 1;
+    };
+    bool any = false;
+    const auto give = [&](std::uint32_t from, std::uint32_t to) {
+      if (!is_point(from) || is_point(to) || share_[to] > 0) return;
+      graph_.part[to] = graph_.part[from];
+      any = true;
+    };
+    for (const CurveBranch& branch : graph_.branches) {
+      const auto& line = branch.vertices;
+      for (std::size_t n = 1; n < line.size(); ++n) give(line[n - 1], line[n]);
+      for (std::size_t n = line.size(); n-- > 1;) give(line[n], line[n - 1]);
+    }
+    return any;
   }
 
   template <class Visit>
@@ -191,10 +211,23 @@ class GraphOfCurve {
     if (first_free && !last_free) std::reverse(vertices.begin(), vertices.end());
     branch.from = node(vertices.front());
     branch.to = node(vertices.back());
-    for (std::size_t n = 1; n < vertices.size(); ++n)
-      branch.length += norm(places_[vertices[n]] - places_[vertices[n - 1]]);
-    branch.straight_length = norm(places_[vertices.back()] - places_[vertices.front()]);
+    const auto line = outside_bodies(branch);
+    for (std::size_t n = 1; n < line.size(); ++n)
+      branch.length += norm(places_[line[n]] - places_[line[n - 1]]);
+    branch.straight_length = norm(places_[line.back()] - places_[line.front()]);
     measure_radius(branch);
+  }
+
+  // Within a body lines run as they please.  All of a branch that has less than two vertices elsewhere.
+  std::span<const std::uint32_t> outside_bodies(const CurveBranch& branch) const {
+    const std::span<const std::uint32_t> vertices = branch.vertices;
+    const auto is_elsewhere = [&](std::uint32_t v) {
+      const CurveBranch& owner = graph_.branches[graph_.part[v]];
+      return &owner == &branch || owner.vertices.size() > 1;
+    };
+    const auto last = std::find_if(vertices.rbegin(), vertices.rend(), is_elsewhere).base();
+    const auto first = std::find_if(vertices.begin(), last, is_elsewhere);
+    return last - first > 1 ? std::span(first, last) : vertices;
   }
 
   void measure_radius(CurveBranch& branch) const {
@@ -218,10 +251,11 @@ class GraphOfCurve {
     branch.mean_radius = length > 0 ? sum / length : branch.least_radius;
   }
 
-  // The place so far along a branch, from its first vertex or from its last.
+  // The place so far along a branch, from its first vertex, outside of bodies, or from its last.
   Vec3 place_along(const CurveBranch& branch, bool from_last, double way) const {
-    const std::size_t count = branch.vertices.size();
-    const auto at = [&](std::size_t n) { return places_[branch.vertices[from_last ? count - 1 - n : n]]; };
+    const auto line = outside_bodies(branch);
+    const std::size_t count = line.size();
+    const auto at = [&](std::size_t n) { return places_[line[from_last ? count - 1 - n : n]]; };
     for (std::size_t n = 1; n < count; ++n) {
       const double length = norm(at(n) - at(n - 1));
       if (way <= length && length > 0) return at(n - 1) + (way / length) * (at(n) - at(n - 1));

@@ -19,8 +19,8 @@ struct CurveBranch {
   /// the branch that comes first.
   std::uint32_t from = 0, to = 0;
   std::vector<std::uint32_t> vertices;  ///< from one to the other
-  double length = 0;                    ///< along the line
-  double straight_length = 0;           ///< from node to node
+  double length = 0;                    ///< along the line, from where it leaves a body that it hangs on
+  double straight_length = 0;           ///< from end to end of that
   double share = 0;                     ///< see CurveGraph::part; 0 when no vertex is its own
   /// Of its own vertices, see CurveGraph::part, or of all where it has none; the mean along the line.
   double mean_radius = 0, least_radius = 0, greatest_radius = 0;

@@ -233,9 +233,14 @@ TEST(Tubes, EqualArmsOfABallAreEqualAndItIsOnePart) {
   fair_onto(f, 1e-3, 3, mesh);
   for (const double points : {25'000., 45'000., 90'000.}) {
     const Measured solid = measured(mesh, points);
-    std::vector<double> shares;
-    for (const Tube& arm : arms) shares.push_back(solid.to(arm.to).share);
+    std::vector<double> shares, lengths;
+    for (const Tube& arm : arms) {
+      shares.push_back(solid.to(arm.to).share);
+      lengths.push_back(solid.to(arm.to).length);
+    }
     const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+    const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+    EXPECT_LT(*longest - *shortest, 0.4) << points;  // an arm's radius; within the body lines run as they please
     EXPECT_LT(*most / *least, 1.06) << points;  // 3 % either way
     const CurveBranch& body = solid.graph.branches[0];
     EXPECT_EQ(body.kind, BranchKind::kPoint) << points;
