@@ -14,7 +14,7 @@ namespace affskel::core {
 
 constexpr std::uint32_t kNoHub = std::numeric_limits<std::uint32_t>::max();
 
-/// A body that limbs hang on, as an octopus's head, an elephant's trunk or a chair's seat: an ellipsoid.
+/// A body that limbs hang on, as an octopus's head, an elephant's torso or a chair's seat: an ellipsoid.
 struct LimbHub {
   std::uint32_t joint = 0;  ///< the vertex that stands for it
   Vec3 centre;
