@@ -115,23 +115,23 @@ class LeaseLoop {
 
  private:
   std::optional<v1::Lease> next_lease() {
+    if (!next_ && !last_report_.token().empty()) next_ = ask({}, {});
     if (next_) return std::exchange(next_, std::nullopt);
     settle_last_report();  // one that failed is said at once: its task may be all that there is to do
-    describe_hands({});
-    const auto wait =
-        options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kMinWait, kLongestWait) : kLongestWait;
-    request_.set_wait_ms(static_cast<std::uint32_t>(wait.count()));
-    return link_.lease(request_);
+    return ask({}, options_.idle_exit.count() > 0 ? std::clamp(idle_time_left(), kMinWait, kLongestWait)
+                                                  : kLongestWait);
   }
 
   // Tells in the request what the worker has in hand: a job, and leases.  One of them may have ended without
   // this worker's knowledge, and it must not be given its task as a new one.
-  void describe_hands(const std::string& present) {
+  std::optional<v1::Lease> ask(const std::string& present, std::chrono::milliseconds wait) {
     request_.set_preferred_job(job_.id());
     request_.clear_held();
     for (const std::string& token : {present, last_report_.token()}) {
       if (!token.empty()) request_.add_held(token);
     }
+    request_.set_wait_ms(static_cast<std::uint32_t>(wait.count()));
+    return link_.lease(request_);
   }
 
   // Until the worker leaves for want of work, rounded up.
@@ -140,11 +140,7 @@ class LeaseLoop {
   }
 
   // Takes the next lease, if there is one, while the present one's task is still computed.
-  void look_ahead(const v1::Lease& present) {
-    describe_hands(present.token());
-    request_.set_wait_ms(0);
-    next_ = link_.lease(request_);
-  }
+  void look_ahead(const v1::Lease& present) { next_ = ask(present.token(), {}); }
 
   // Waits until the last report has ended, and acts on how it did.
   void settle_last_report() {

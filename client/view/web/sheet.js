@@ -50,10 +50,10 @@ function onTubes(a, size, segments, entry) {
 const along = (from, to) => (from.equals(to) ? new Vector3(0, 0, 1) : to.clone().sub(from).normalize());
 
 // The unit vectors across a segment, for the sides of its tube.
-function across(along) {
-  const least = Math.abs(along.x) < 0.6 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
-  const first = least.cross(along).normalize();
-  const second = along.clone().cross(first);
+function across(direction) {
+  const least = Math.abs(direction.x) < 0.6 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
+  const first = least.cross(direction).normalize();
+  const second = direction.clone().cross(first);
   return Array.from({ length: kSides }, (_, side) => {
     const angle = (2 * Math.PI * side) / kSides;
     return first.clone().multiplyScalar(Math.cos(angle)).addScaledVector(second, Math.sin(angle));
@@ -97,8 +97,8 @@ function tubeCorners(first, isSpot) {
 /** Triangles, and tubes about segments, by the weight of their pieces. */
 export class Sheet {
   /**
-   * The elements are the triangles, then the segments of curves, of which those from a vertex to itself are spots.  pieces: per element its piece, the heaviest is
-   * 0.  radius: of the tubes, page units.
+   * The elements are the triangles, then the segments of curves, of which those from a vertex to itself are spots.
+   * pieces: per element its piece, the heaviest is 0.  radius: of the tubes, page units.
    * @param {import('./clip.js').Clip} clip
    */
   constructor(positions, colours, pieces, corners, segments, radius, clip) {

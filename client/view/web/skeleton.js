@@ -65,9 +65,12 @@ function makeSheet({ arrays, threshold, cell, operator }, highest, clip) {
     keeps: (value, least) => value >= least,
     choice: shares.length > 1, // of one piece there is nothing to drop
     describe(elements, least) {
-      const [triangles, segments, spots] = ['triangle', 'segment', 'spot'].map((kind) => sheet.count(elements, kind));
+      const triangles = sheet.count(elements, 'triangle');
+      const segments = sheet.count(elements, 'segment');
+      const spots = sheet.count(elements, 'spot');
       const curves = segments ? ` and ${whole(segments)} segments of curves` : '';
-      const what = elements === spots ? (spots === 1 ? 'a point' : `${whole(spots)} points`) : `${whole(triangles)} triangles${curves}`;
+      const points = spots === 1 ? 'a point' : `${whole(spots)} points`;
+      const what = elements === spots ? points : `${whole(triangles)} triangles${curves}`;
       const kept = prefixLength(shares, null, (share) => share >= least);
       const pieces = shares.length === 1 ? 'one piece' : `${whole(kept)} of ${whole(shares.length)} pieces`;
       return shares.length === 0 ? 'the sheet is empty' : `${what} in ${pieces}`;

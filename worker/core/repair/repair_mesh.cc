@@ -22,11 +22,11 @@ namespace {
 constexpr double kLongestHole = 0.6;        // of the box's diagonal: half of a body's back, a sleeve, a neck
 constexpr double kWrapDetail = 1.0 / 220;   // of the box's diagonal
 constexpr double kFinestWrap = 1.0 / 2000;  // of the box's diagonal: some five million triangles, and minutes
-constexpr double kFlattest = 1e-6;          // of the box's diagonal: single precision is as rough
 constexpr double kSmallest = 1e-60, kLargest = 1e60;
 constexpr double kWrapOffset = 0.1;  // of alpha
 // Volume by area^(3/2): a ball 0.094, a rod fifty times as long as thick 0.03, a plate of 1 % 0.0035.
 constexpr double kFlat = 1e-3;
+constexpr double kNothing = 1e-6;  // likewise: single precision gives a flat sheet 1e-7
 // Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more than
 // 0.5 % off when these were filled were beyond it, of those with many holes none.
 constexpr double kToldBulge = 0.003;
@@ -53,7 +53,16 @@ class Mending {
     turn_outward();
   }
 
-  RepairedMesh result() { return std::move(result_); }
+  /// @throws CoreError kBadInput for an open sheet, but with lengths of one's own: filled, it would bound nothing, and
+  ///   wrapped by an alpha that suits its length, a film.
+  RepairedMesh result(const RepairOptions& asked) {
+    if (is_sheet_ && asked.alpha == 0 && asked.longest_hole == 0)
+      throw CoreError(
+          CoreError::Code::kBadInput,
+          "the mesh is an open sheet and flat, so that it bounds no volume; give it a thickness, by "
+          "Blender's Solidify, say, or wrap it by an alpha of your own");
+    return std::move(result_);
+  }
 
  private:
   void tell(const char* code, std::uint64_t count, const std::string& message) {
@@ -147,8 +156,13 @@ class Mending {
       return was_open[part] && std::fabs(volume[part]) < kFlat * std::pow(area[part], 1.5);
     };
     std::uint64_t flaps = 0, sound = 0;
-    for (std::uint32_t i = 0; i < count; ++i)
+    double all_volume = 0, all_area = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
       if (parts.find(i) == i && area[i] > 0) (is_flap(i) ? flaps : sound) += 1;
+      all_volume += std::fabs(volume[i]);
+      all_area += area[i];
+    }
+    is_sheet_ = sound == 0 && all_volume < kNothing * std::pow(all_area, 1.5);
     if (flaps == 0 || sound == 0) return;
     std::vector<Triangle> kept;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -167,6 +181,7 @@ class Mending {
 
   const RepairOptions& options_;
   double longest_ = 0;
+  bool is_sheet_ = false;  // all parts were open, and together they enclose nothing
   RepairedMesh result_;
   std::vector<std::uint32_t> rims_;  // of each hole a point
 };
@@ -221,7 +236,7 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
     // Through a hole that is wider than alpha the wrap would enter.
     RepairOptions all = options;
     all.longest_hole = HUGE_VAL;
-    result = Mending(mesh, all).result();
+    result = Mending(mesh, all).result(options);
     result.left.clear();
   }
   if (options.alpha > 0) wrap.alpha = options.alpha;
@@ -251,19 +266,6 @@ void take_volume(RepairedMesh& result, const RepairOptions& options) {
   }
 }
 
-// How far points lie from the plane of three that are far apart.
-double thickness_of(const std::vector<Vec3>& points) {
-  const Vec3 origin = points[0];
-  Vec3 along, normal;
-  for (const Vec3& p : points)
-    if (norm(p - origin) > norm(along)) along = p - origin;
-  for (const Vec3& p : points)
-    if (const Vec3 n = cross(along, p - origin); norm(n) > norm(normal)) normal = n;
-  double thickness = 0;
-  for (const Vec3& p : points) thickness = std::max(thickness, std::fabs(dot(normal, p - origin)));
-  return thickness == 0 ? 0 : thickness / norm(normal);
-}
-
 // Powers of lengths must not overflow, nor vanish.
 void check_size(const Mesh& mesh) {
   if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "the mesh has no points");
@@ -276,27 +278,17 @@ void check_size(const Mesh& mesh) {
   }
 }
 
-// Filled, what is flat would bound nothing; wrapped by an alpha that suits its length, a film.
-void check_thickness(const Mesh& mesh) {
-  if (thickness_of(mesh.points) < kFlattest * diagonal(mesh)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "the mesh is flat: all points lie in one plane, so that it bounds no volume; give it a "
-                    "thickness, by Blender's Solidify, say, or wrap it by an alpha of your own");
-  }
-}
-
 }  // namespace
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   check_size(mesh);
-  if (options.alpha == 0 && options.longest_hole == 0) check_thickness(mesh);
   RepairedMesh result;
   if (options.kind == RepairKind::kWrap) {
     result = wrapped(mesh, options);
   } else if (mesh.triangles.empty()) {
     result.left = "there are points and no triangles";
   } else {
-    result = Mending(mesh, options).result();
+    result = Mending(mesh, options).result(options);
   }
   if (result.left.empty()) take_volume(result, options);
   return result;

@@ -46,7 +46,7 @@ struct RepairedMesh {
 };
 
 /// Makes a mesh bound a solid, in steps that are told.
-/// @throws CoreError kBadInput without points, without lengths of one's own where all points lie in one plane, for a
+/// @throws CoreError kBadInput without points, without lengths of one's own for an open flat sheet, for a
 ///   box of 1e60 or more, of 1e-60 or less, for an alpha below a 2000th of its diagonal; kCancelled.
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options = {});
 
