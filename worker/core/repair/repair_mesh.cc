@@ -156,13 +156,9 @@ class Mending {
       return was_open[part] && std::fabs(volume[part]) < kFlat * std::pow(area[part], 1.5);
     };
     std::uint64_t flaps = 0, sound = 0;
-    double all_volume = 0, all_area = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < count; ++i)
       if (parts.find(i) == i && area[i] > 0) (is_flap(i) ? flaps : sound) += 1;
-      all_volume += std::fabs(volume[i]);
-      all_area += area[i];
-    }
-    is_sheet_ = sound == 0 && all_volume < kNothing * std::pow(all_area, 1.5);
+    is_sheet_ = sound == 0 && std::fabs(enclosed_volume(mesh)) < kNothing * std::pow(surface_area(mesh), 1.5);
     if (flaps == 0 || sound == 0) return;
     std::vector<Triangle> kept;
     for (std::uint32_t i = 0; i < count; ++i)
