@@ -84,7 +84,8 @@ FetchRequest one_file(const v1::Job& job, const std::string& artifact, const std
 
 std::vector<FetchRequest> main_files(const v1::Job& job, const std::string& stem) {
   return {one_file(job, "field", stem + ".field" + std::string(extension_of(open_field_format(job)))),
-          one_file(job, "skeleton", stem + ".skeleton.vtp"), one_file(job, "skeleton", stem + ".skeleton.ply")};
+          one_file(job, "skeleton", stem + ".skeleton.vtp"),
+          one_file(job, "skeleton", stem + ".skeleton.ply")};
 }
 
 }  // namespace affskel::client

@@ -97,22 +97,22 @@ TEST(LimbHubs, AreNotWhereLimbsGrowSlowly) {
   EXPECT_TRUE(cube.found().hubs.empty());
 }
 
-TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
+// Four limbs, and one upwards of so many vertices, so thick.
+Cube cube_with_limb(int vertices, double radius) {
   Cube cube;
   const std::uint32_t joint = cube.add(cube.middle, 2);
   cube.go_out(joint, kCross, 2.2, 2);
-  cube.go(joint, {0, 0, 0.1}, 80, 1.7);
-  cube.radius.resize(cube.places.size(), 1.7);  // a ball as large as the cube has 2.48
-  EXPECT_TRUE(cube.found().hubs.empty());
+  cube.go(joint, {0, 0, 0.1}, vertices, radius);
+  cube.radius.resize(cube.places.size(), radius);
+  return cube;
+}
+
+TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
+  EXPECT_TRUE(cube_with_limb(80, 1.7).found().hubs.empty()) << "a ball as large as the cube has 2.48";
 }
 
 TEST(LimbHubs, HoldNoLimbsEnd) {
-  Cube cube;
-  const std::uint32_t joint = cube.add(cube.middle, 2);
-  cube.go_out(joint, kCross, 2.2, 2);
-  cube.go(joint, {0, 0, 0.1}, 20, 0.5);
-  cube.radius.resize(cube.places.size(), 0.5);
-  EXPECT_TRUE(cube.found().hubs.empty());
+  EXPECT_TRUE(cube_with_limb(20, 0.5).found().hubs.empty());
 }
 
 }  // namespace

@@ -240,7 +240,8 @@ TEST(Tubes, EqualArmsOfABallAreEqualAndItIsOnePart) {
     }
     const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
     const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
-    EXPECT_LT(*longest - *shortest, 0.4) << points;  // an arm's radius; within the body lines run as they please
+    EXPECT_LT(*longest - *shortest, 0.4)
+        << points;                              // an arm's radius; within the body lines run as they please
     EXPECT_LT(*most / *least, 1.06) << points;  // 3 % either way
     const CurveBranch& body = solid.graph.branches[0];
     EXPECT_EQ(body.kind, BranchKind::kPoint) << points;
