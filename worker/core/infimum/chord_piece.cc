@@ -78,7 +78,7 @@ class PieceFinder::Work {
   Joins joins_at(std::uint32_t vertex) {
     trace_rest();
     joined_.resize(loops_.size(), 0);
-    if (in_.at_crossing(vertex)) return Joins::unknown;
+    if (!in_.crossings.at(vertex).empty()) return Joins::unknown;
     std::uint32_t beside = vertex;  // in the plane, too
     for (const std::uint32_t other : in_.rings[vertex]) {
       if (!touches(other)) continue;
@@ -181,7 +181,7 @@ class PieceFinder::Work {
 
   // Whether of those round a vertex the plane touches this one alone, and passes both when it passes it.
   bool only_touches(std::uint32_t vertex, std::uint32_t other) const {
-    return !in_.at_crossing(vertex) && dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
+    return in_.crossings.at(vertex).empty() && dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
            std::ranges::none_of(in_.rings[vertex], [&](std::uint32_t v) { return v != other && touches(v); });
   }
 
@@ -289,10 +289,11 @@ class PieceFinder::Work {
 
   // As in the join tree: what passes through each other is joined as soon as both have begun.
   void join_crossings() {
-    for (const auto& [i, j] : in_.crossings) {
-      const std::uint32_t a = corner_below(i), b = a == kNone ? kNone : corner_below(j);
+    const auto below = [&](std::uint32_t vertex) { return section_.below(vertex); };
+    in_.crossings.each_new(x_, d_, lists_, below, [&](const CrossingPairs::Pair& pair) {
+      const std::uint32_t a = corner_below(pair.first), b = a == kNone ? kNone : corner_below(pair.second);
       if (b != kNone) classes_.unite(member_of(a), member_of(b));
-    }
+    });
   }
 
   void join_whole_shells() {
@@ -355,6 +356,7 @@ class PieceFinder::Work {
   std::vector<std::vector<std::uint32_t>> solid_shells_;  // per solid
   Vec3 x_, d_;
   std::uint32_t solid_ = 0;
+  FourTree::Lists lists_;
   std::vector<CutEdge> cuts_;
   DisjointSets classes_;
   bool by_sides_ = false;                             // how the loops were joined

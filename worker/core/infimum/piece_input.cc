@@ -65,12 +65,13 @@ double SurfaceSums::volume_from(const Vec3& x) const {
 }
 
 PieceInput::PieceInput(const Solid& solid, unsigned threads) {
-  number_anew(solid);
+  std::vector<CrossingPairs::Pair> pairs = number_anew(solid);
   find_mates_if_closed(mesh, threads, mates_);
   sum_up();
   find_handles();
   find_passages();
   find_rings();
+  crossings = CrossingPairs(mesh, mates_, rings, std::move(pairs));
   find_saddles();
   is_ball = shells.size() == 1 && shells[0].handles.empty() && crossings.empty();
   mates_ = {};
@@ -83,7 +84,8 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
   for (const double v : solid.solid_volume) volume += std::ldexp(v, -3 * solid.exponent);
 }
 
-void PieceInput::number_anew(const Solid& solid) {
+// The pairs that pass through each other, too.
+std::vector<CrossingPairs::Pair> PieceInput::number_anew(const Solid& solid) {
   const std::vector<std::uint32_t> triangle_order = FourTree().build(boxes_of(solid.mesh));
   std::vector<std::uint32_t> triangle_number(triangle_order.size());
   Mesh in_order{solid.mesh.points, {}};
@@ -98,7 +100,10 @@ void PieceInput::number_anew(const Solid& solid) {
     shells[shell_of[mesh.triangles[t][0]]].solid =
         solid.shells[solid.triangle_shell[triangle_order[t]]].solid;
   }
-  if (!solid.crossings.empty()) add_crossings(solid, triangle_number);
+  join_solids(solid);
+  std::vector<CrossingPairs::Pair> pairs;
+  for (const auto& [i, j] : solid.crossings) pairs.push_back({triangle_number[i], triangle_number[j]});
+  return pairs;
 }
 
 void PieceInput::plant_trees() {
@@ -120,14 +125,9 @@ void PieceInput::plant_trees() {
 }
 
 // Solids that pass through each other are one from here on.
-void PieceInput::add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number) {
-  crosses.assign(mesh.points.size(), 0);
+void PieceInput::join_solids(const Solid& solid) {
   DisjointSets solids(solid.solid_volume.size());
   for (const auto& [i, j] : solid.crossings) {
-    crossings.emplace_back(triangle_number[i], triangle_number[j]);
-    for (const std::uint32_t t : {triangle_number[i], triangle_number[j]}) {
-      for (const std::uint32_t v : mesh.triangles[t]) crosses[v] = 1;
-    }
     solids.unite(solid.shells[solid.triangle_shell[i]].solid, solid.shells[solid.triangle_shell[j]].solid);
   }
   for (Shell& shell : shells) shell.solid = solids.find(shell.solid);
@@ -206,7 +206,7 @@ void PieceInput::find_rings() {
 
 // No plane through such a vertex has more than one stretch of its neighbours below.
 bool PieceInput::is_convex(std::uint32_t vertex) const {
-  if (at_crossing(vertex)) return false;
+  if (!crossings.at(vertex).empty()) return false;
   const auto ring = rings[vertex];
   int left = 0, right = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {

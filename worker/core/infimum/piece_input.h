@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/groups.h"
+#include "core/infimum/crossing_pairs.h"
 #include "core/infimum/four_tree.h"
 #include "core/mesh/mesh.h"
 #include "core/solid/solid.h"
@@ -108,18 +109,14 @@ struct PieceInput {
   std::vector<Saddle> saddles;  ///< by vertex
   FourTree saddle_tree;         ///< over `saddles`
   Groups<std::uint32_t> rings;  ///< per vertex: its neighbours, in their order round it
-  /// Pairs of triangles that pass through each other.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
-  std::vector<std::uint8_t> crosses;  ///< per vertex: at such a triangle; empty where there is none
-  /// Whether a triangle at the vertex passes through another.
-  bool at_crossing(std::uint32_t vertex) const { return !crosses.empty() && crosses[vertex] != 0; }
+  CrossingPairs crossings;
   bool is_ball = false;            ///< one shell without handles that does not pass through itself
   double volume = 0;               ///< of all solids, scaled units
   std::optional<RayShooter> rays;  ///< only where a solid has several shells
 
  private:
-  void number_anew(const Solid& solid);
-  void add_crossings(const Solid& solid, const std::vector<std::uint32_t>& triangle_number);
+  std::vector<CrossingPairs::Pair> number_anew(const Solid& solid);
+  void join_solids(const Solid& solid);
   void plant_trees();
   void sum_up();
   void find_handles();

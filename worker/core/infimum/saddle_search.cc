@@ -114,7 +114,7 @@ bool SaddleSearch::may_join(const Vec3& x, const PieceInput::Saddle& saddle, con
 }
 
 bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) const {
-  if (in_.at_crossing(saddle.vertex)) return true;
+  if (!in_.crossings.at(saddle.vertex).empty()) return true;
   if (!near_tangent(saddle, d)) return false;
   const auto ring = in_.rings[saddle.vertex];
   int changes = 0;

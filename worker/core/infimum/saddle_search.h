@@ -42,7 +42,7 @@ class SaddleSearch {
 
   /// Whether the saddle is one for planes of normal d, of any length; no ring is looked at.
   bool near_tangent(const PieceInput::Saddle& saddle, const Vec3& d) const {
-    if (in_.at_crossing(saddle.vertex)) return true;
+    if (!in_.crossings.at(saddle.vertex).empty()) return true;
     const double along = dot(d, saddle.normal);
     return along * along >= saddle.cosine * saddle.cosine * dot(d, d);
   }
