@@ -74,11 +74,11 @@ class PieceFinder::Work {
     return std::ranges::any_of(own_loops_, [&](std::uint32_t l) { return sides_[l] == sides; });
   }
 
-  // Some loops that pass the vertex bound the piece, others do not.
+  // Some of what meets at the vertex is of the piece, some is not: loops that pass it, and what triangles pass through
+  // that begin with it.
   Joins joins_at(std::uint32_t vertex) {
     trace_rest();
     joined_.resize(loops_.size(), 0);
-    if (!in_.crossings.at(vertex).empty()) return Joins::unknown;
     std::uint32_t beside = vertex;  // in the plane, too
     for (const std::uint32_t other : in_.rings[vertex]) {
       if (!touches(other)) continue;
@@ -91,6 +91,17 @@ class PieceFinder::Work {
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       bool& passed = passes[joined_[l]];
       passed = passed || passes_at(loops_[l], vertex) || (beside != vertex && passes_at(loops_[l], beside));
+    }
+    for (const CrossingPairs::Pair& pair : in_.crossings.at(vertex)) {
+      if (beside != vertex) return Joins::unknown;
+      if (uses(in_.mesh.triangles[pair.second], vertex) || corner_below(pair.first) != kNone) continue;
+      const std::uint32_t corner = corner_below(pair.second);
+      if (corner != kNone) {
+        passes[own_loops_.empty() ? 0 : classes_.find(member_of(corner)) == classes_.find(own_loops_[0])] =
+            true;
+      } else if (std::ranges::any_of(in_.mesh.triangles[pair.second], [&](auto v) { return touches(v); })) {
+        return Joins::unknown;
+      }
     }
     return passes[0] && passes[1] ? Joins::yes : Joins::no;
   }
@@ -181,7 +192,8 @@ class PieceFinder::Work {
 
   // Whether of those round a vertex the plane touches this one alone, and passes both when it passes it.
   bool only_touches(std::uint32_t vertex, std::uint32_t other) const {
-    return in_.crossings.at(vertex).empty() && dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
+    return in_.crossings.at(vertex).empty() &&
+           dot(in_.mesh.points[vertex] - x_, in_.mesh.points[other] - x_) > 0 &&
            std::ranges::none_of(in_.rings[vertex], [&](std::uint32_t v) { return v != other && touches(v); });
   }
 

@@ -1,8 +1,9 @@
 // What tells of a pair that its parts are joined already.  Pairs follow one another along the line in which surfaces
 // pass through each other: the next one shares a triangle, and its other one is next to the other, across an edge.
 // The edge's ends are the pair's vertices: where one of them lies below and the shared triangle has begun, what the
-// pair before it joins is joined, and has that end.  The first pair of a line has the corner that both share, if there
-// is one; else its box holds a way along edges from one to the other.
+// pair before it joins is joined, and has that end.  So it tells something new only where the plane parts the triangle
+// beyond the edge, which is in its box.  The first pair of a line has the corner that both share, if there is one, and
+// either one's box; else its box holds both, and a way along edges from one to the other.
 #include "core/infimum/crossing_pairs.h"
 
 #include <algorithm>
@@ -39,8 +40,7 @@ class PairLines {
         for_each_next(line[i], [&](std::uint32_t next, std::uint32_t half_edge) {
           if (reached[next] != 0) return;
           reached[next] = 1;
-          boxes_[next] = round(pairs[line[i]]);
-          boxes_[next].include(round(pairs[next]));
+          boxes_[next] = round(mates[half_edge] / 3);
           links_[next] = {corner(half_edge), corner(half_edge / 3 * 3 + (half_edge + 1) % 3)};
           line.push_back(next);
         });
@@ -58,11 +58,7 @@ class PairLines {
     return mesh_.triangles[half_edge / 3][half_edge % 3];
   }
 
-  Box round(const CrossingPairs::Pair& pair) const {
-    Box box = box_of(mesh_, mesh_.triangles[pair.first]);
-    box.include(box_of(mesh_, mesh_.triangles[pair.second]));
-    return box;
-  }
+  Box round(std::uint32_t triangle) const { return box_of(mesh_, mesh_.triangles[triangle]); }
 
   // Calls visit(pair, half-edge) for those of which a triangle is across that half-edge.
   template <class Visit>
@@ -82,12 +78,13 @@ class PairLines {
   }
 
   void begin_line(std::uint32_t n) {
-    boxes_[n] = round(pairs_[n]);
+    boxes_[n] = round(pairs_[n].first);
     const Triangle &first = mesh_.triangles[pairs_[n].first], &second = mesh_.triangles[pairs_[n].second];
     const auto shared = std::ranges::find_first_of(first, second);
     if (shared != first.end()) {
       links_[n] = {*shared, *shared};
     } else {
+      boxes_[n].include(round(pairs_[n].second));
       add_way(first, second, boxes_[n]);
     }
   }

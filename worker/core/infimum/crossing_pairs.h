@@ -15,8 +15,8 @@ namespace affskel::core {
 /// to, as soon as both have corners below it.  Immutable; threads share it.
 ///
 /// Most pairs tell of a plane what is known without them: that the parts are joined by the surface between both
-/// triangles, or by a pair next to it.  Each has a box, and where that lies wholly below the plane it is so; and it
-/// has up to two vertices, and where one of them lies below it is so.
+/// triangles, or by a pair next to it.  Each has a box, and where the plane does not meet that it is so, or nothing is
+/// joined; and it has up to two vertices, and where one of them lies below it is so.
 class CrossingPairs {
  public:
   struct Pair {

@@ -11,6 +11,8 @@ namespace {
 constexpr double kFurthestTilt = 0.1;
 // Of this many triangles.  With more the tilt is less, so that its vertices grow in number as a rim's do.
 constexpr double kTriangles = 1000;
+constexpr double kLevel = 4 * kTouchHeight;  // height of a vertex in the plane, within rounding
+constexpr std::size_t kMostNear = 48;        // vertices round a crossing that are looked at
 
 }  // namespace
 
@@ -113,19 +115,75 @@ bool SaddleSearch::may_join(const Vec3& x, const PieceInput::Saddle& saddle, con
   return may_join(saddle, d);
 }
 
-bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) const {
-  if (!in_.crossings.at(saddle.vertex).empty()) return true;
+bool SaddleSearch::may_join(const PieceInput::Saddle& saddle, const Vec3& d) {
+  return parts_ring(saddle, d) || crossing_joins(saddle.vertex, d);
+}
+
+bool SaddleSearch::parts_ring(const PieceInput::Saddle& saddle, const Vec3& d) const {
   if (!near_tangent(saddle, d)) return false;
   const auto ring = in_.rings[saddle.vertex];
   int changes = 0;
   bool before = dot(d, from_x(ring.back())) < 0;
   for (const std::uint32_t other : ring) {
     const double height = dot(d, from_x(other));
-    if (std::abs(height) <= 4 * kTouchHeight) return true;
+    if (std::abs(height) <= kLevel) return true;
     changes += (height < 0) != before;
     before = height < 0;
   }
   return changes >= 4;
+}
+
+// Whether parts meet in the triangles that begin with the vertex and pass through others, which have begun: among
+// each other, or with what is round the vertex.
+bool SaddleSearch::crossing_joins(std::uint32_t vertex, const Vec3& d) {
+  meeting_.clear();
+  for (const CrossingPairs::Pair& pair : in_.crossings.at(vertex)) {
+    if (!begins_with(pair.first, vertex, d)) continue;
+    const Triangle& other = in_.mesh.triangles[pair.second];
+    if (uses(other, vertex)) continue;  // what is below of it is round the vertex
+    const auto height = [&](std::uint32_t v) { return dot(d, from_x(v)); };
+    const std::uint32_t lowest = *std::ranges::min_element(other, {}, height);
+    if (std::abs(height(lowest)) <= kLevel) return true;
+    if (height(lowest) < 0) meeting_.push_back(lowest);
+  }
+  if (meeting_.empty()) return false;
+  const auto ring = in_.rings[vertex];
+  const auto below =
+      std::ranges::find_if(ring, [&](std::uint32_t other) { return dot(d, from_x(other)) < -kLevel; });
+  if (below != ring.end()) meeting_.push_back(*below);
+  return !are_near_below(meeting_, d);
+}
+
+bool SaddleSearch::begins_with(std::uint32_t triangle, std::uint32_t vertex, const Vec3& d) const {
+  return std::ranges::all_of(in_.mesh.triangles[triangle], [&](std::uint32_t other) {
+    return other == vertex || dot(d, from_x(other)) >= -kLevel;
+  });
+}
+
+// Whether vertices below the plane are joined by few edges and crossings below it.
+bool SaddleSearch::are_near_below(std::span<const std::uint32_t> vertices, const Vec3& d) {
+  seen_.clear();
+  if (++look_ == 0) {
+    std::fill(seen_by_.begin(), seen_by_.end(), 0);
+    look_ = 1;
+  }
+  seen_by_.resize(in_.mesh.points.size(), 0);
+  const auto see = [&](std::uint32_t v) {
+    if (seen_by_[v] == look_ || seen_.size() >= kMostNear || dot(d, from_x(v)) >= -kLevel) return;
+    seen_by_[v] = look_;
+    seen_.push_back(v);
+  };
+  const auto all_seen = [&] {
+    return std::ranges::all_of(vertices, [&](std::uint32_t v) { return seen_by_[v] == look_; });
+  };
+  see(vertices[0]);
+  for (std::size_t i = 0; i < seen_.size() && !all_seen(); ++i) {
+    for (const std::uint32_t other : in_.rings[seen_[i]]) see(other);
+    for (const CrossingPairs::Pair& pair : in_.crossings.at(seen_[i])) {
+      for (const std::uint32_t other : in_.mesh.triangles[pair.second]) see(other);
+    }
+  }
+  return all_seen();
 }
 
 }  // namespace affskel::core

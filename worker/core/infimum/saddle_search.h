@@ -12,7 +12,7 @@ namespace affskel::core {
 
 /// Finds the vertices at which a plane through x that tilts may meet a part of the solid that joins the piece
 /// below it: those whose neighbours below are of several stretches of their ring, or that are not alone in the
-/// plane, or at triangles that pass through others.  Its memory is used again.
+/// plane, or with which a triangle begins that passes through another.  Its memory is used again.
 class SaddleSearch {
  public:
   struct Saddle {
@@ -53,7 +53,11 @@ class SaddleSearch {
 
  private:
   Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
-  bool may_join(const PieceInput::Saddle& saddle, const Vec3& d) const;
+  bool may_join(const PieceInput::Saddle& saddle, const Vec3& d);
+  bool parts_ring(const PieceInput::Saddle& saddle, const Vec3& d) const;
+  bool crossing_joins(std::uint32_t vertex, const Vec3& d);
+  bool begins_with(std::uint32_t triangle, std::uint32_t vertex, const Vec3& d) const;
+  bool are_near_below(std::span<const std::uint32_t> vertices, const Vec3& d);
   template <class Meets, class Visit>
   void visit_vertices(Meets meets, Visit visit);
 
@@ -64,6 +68,9 @@ class SaddleSearch {
   FourTree::Lists lists_;
   std::vector<Saddle> found_;
   std::vector<const PieceInput::Saddle*> reached_;
+  std::vector<std::uint32_t> meeting_, seen_;  // of crossing_joins()
+  std::vector<std::uint32_t> seen_by_;         // per vertex: the look that saw it last
+  std::uint32_t look_ = 0;
 };
 
 }  // namespace affskel::core
