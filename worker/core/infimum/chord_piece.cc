@@ -92,14 +92,16 @@ class PieceFinder::Work {
       bool& passed = passes[joined_[l]];
       passed = passed || passes_at(loops_[l], vertex) || (beside != vertex && passes_at(loops_[l], beside));
     }
-    for (const CrossingPairs::Pair& pair : in_.crossings.at(vertex)) {
+    for (const CrossingPairs::Crossing& crossing : in_.crossings.at(vertex)) {
       if (beside != vertex) return Joins::unknown;
-      if (uses(in_.mesh.triangles[pair.second], vertex) || corner_below(pair.first) != kNone) continue;
-      const std::uint32_t corner = corner_below(pair.second);
+      if (uses(in_.mesh.triangles[crossing.other], vertex) || corner_below(crossing.triangle) != kNone)
+        continue;
+      const std::uint32_t corner = corner_below(crossing.other);
       if (corner != kNone) {
         passes[own_loops_.empty() ? 0 : classes_.find(member_of(corner)) == classes_.find(own_loops_[0])] =
             true;
-      } else if (std::ranges::any_of(in_.mesh.triangles[pair.second], [&](auto v) { return touches(v); })) {
+      } else if (std::ranges::any_of(in_.mesh.triangles[crossing.other],
+                                     [&](auto v) { return touches(v); })) {
         return Joins::unknown;
       }
     }
@@ -302,7 +304,7 @@ class PieceFinder::Work {
   // As in the join tree: what passes through each other is joined as soon as both have begun.
   void join_crossings() {
     const auto below = [&](std::uint32_t vertex) { return section_.below(vertex); };
-    in_.crossings.each_new(x_, d_, lists_, below, [&](const CrossingPairs::Pair& pair) {
+    in_.crossings.each_new(x_, d_, lists_, below, [&](const CrossingPair& pair) {
       const std::uint32_t a = corner_below(pair.first), b = a == kNone ? kNone : corner_below(pair.second);
       if (b != kNone) classes_.unite(member_of(a), member_of(b));
     });

@@ -65,13 +65,13 @@ double SurfaceSums::volume_from(const Vec3& x) const {
 }
 
 PieceInput::PieceInput(const Solid& solid, unsigned threads) {
-  std::vector<CrossingPairs::Pair> pairs = number_anew(solid);
+  auto pairs = number_anew(solid);
   find_mates_if_closed(mesh, threads, mates_);
   sum_up();
   find_handles();
   find_passages();
   find_rings();
-  crossings = CrossingPairs(mesh, mates_, rings, std::move(pairs));
+  crossings = CrossingPairs(mesh, rings, link_crossings(mesh, mates_, std::move(pairs)));
   find_saddles();
   is_ball = shells.size() == 1 && shells[0].handles.empty() && crossings.empty();
   mates_ = {};
@@ -85,7 +85,7 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
 }
 
 // The pairs that pass through each other, too.
-std::vector<CrossingPairs::Pair> PieceInput::number_anew(const Solid& solid) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> PieceInput::number_anew(const Solid& solid) {
   const std::vector<std::uint32_t> triangle_order = FourTree().build(boxes_of(solid.mesh));
   std::vector<std::uint32_t> triangle_number(triangle_order.size());
   Mesh in_order{solid.mesh.points, {}};
@@ -101,8 +101,8 @@ std::vector<CrossingPairs::Pair> PieceInput::number_anew(const Solid& solid) {
         solid.shells[solid.triangle_shell[triangle_order[t]]].solid;
   }
   join_solids(solid);
-  std::vector<CrossingPairs::Pair> pairs;
-  for (const auto& [i, j] : solid.crossings) pairs.push_back({triangle_number[i], triangle_number[j]});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const auto& [i, j] : solid.crossings) pairs.emplace_back(triangle_number[i], triangle_number[j]);
   return pairs;
 }
 

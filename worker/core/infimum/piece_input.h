@@ -115,7 +115,7 @@ struct PieceInput {
   std::optional<RayShooter> rays;  ///< only where a solid has several shells
 
  private:
-  std::vector<CrossingPairs::Pair> number_anew(const Solid& solid);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> number_anew(const Solid& solid);
   void join_solids(const Solid& solid);
   void plant_trees();
   void sum_up();

@@ -12,7 +12,7 @@ constexpr double kFurthestTilt = 0.1;
 // Of this many triangles.  With more the tilt is less, so that its vertices grow in number as a rim's do.
 constexpr double kTriangles = 1000;
 constexpr double kLevel = 4 * kTouchHeight;  // height of a vertex in the plane, within rounding
-constexpr std::size_t kMostNear = 48;        // vertices round a crossing that are looked at
+constexpr std::size_t kMostLooks = 400;      // at vertices round a crossing, some several times
 
 }  // namespace
 
@@ -137,9 +137,9 @@ bool SaddleSearch::parts_ring(const PieceInput::Saddle& saddle, const Vec3& d) c
 // each other, or with what is round the vertex.
 bool SaddleSearch::crossing_joins(std::uint32_t vertex, const Vec3& d) {
   meeting_.clear();
-  for (const CrossingPairs::Pair& pair : in_.crossings.at(vertex)) {
-    if (!begins_with(pair.first, vertex, d)) continue;
-    const Triangle& other = in_.mesh.triangles[pair.second];
+  for (const CrossingPairs::Crossing& crossing : in_.crossings.at(vertex)) {
+    if (!begins_with(crossing.triangle, vertex, d)) continue;
+    const Triangle& other = in_.mesh.triangles[crossing.other];
     if (uses(other, vertex)) continue;  // what is below of it is round the vertex
     const auto height = [&](std::uint32_t v) { return dot(d, from_x(v)); };
     const std::uint32_t lowest = *std::ranges::min_element(other, {}, height);
@@ -168,8 +168,9 @@ bool SaddleSearch::are_near_below(std::span<const std::uint32_t> vertices, const
     look_ = 1;
   }
   seen_by_.resize(in_.mesh.points.size(), 0);
+  std::size_t looks = 0;
   const auto see = [&](std::uint32_t v) {
-    if (seen_by_[v] == look_ || seen_.size() >= kMostNear || dot(d, from_x(v)) >= -kLevel) return;
+    if (++looks > kMostLooks || seen_by_[v] == look_ || dot(d, from_x(v)) >= -kLevel) return;
     seen_by_[v] = look_;
     seen_.push_back(v);
   };
@@ -177,10 +178,10 @@ bool SaddleSearch::are_near_below(std::span<const std::uint32_t> vertices, const
     return std::ranges::all_of(vertices, [&](std::uint32_t v) { return seen_by_[v] == look_; });
   };
   see(vertices[0]);
-  for (std::size_t i = 0; i < seen_.size() && !all_seen(); ++i) {
+  for (std::size_t i = 0; i < seen_.size() && looks < kMostLooks && !all_seen(); ++i) {
     for (const std::uint32_t other : in_.rings[seen_[i]]) see(other);
-    for (const CrossingPairs::Pair& pair : in_.crossings.at(seen_[i])) {
-      for (const std::uint32_t other : in_.mesh.triangles[pair.second]) see(other);
+    for (const CrossingPairs::Crossing& crossing : in_.crossings.at(seen_[i])) {
+      for (const std::uint32_t other : in_.mesh.triangles[crossing.other]) see(other);
     }
   }
   return all_seen();

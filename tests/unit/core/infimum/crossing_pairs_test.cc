@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
@@ -21,8 +23,6 @@
 namespace affskel::core {
 namespace {
 
-using Pair = CrossingPairs::Pair;
-
 // The parts of the surface below a plane, and what joins them.
 class Parts {
  public:
@@ -37,8 +37,8 @@ class Parts {
 
   bool below(std::uint32_t v) const { return dot(d_, mesh_.points[v] - x_) < -kTouchHeight; }
 
-  void join(const Pair& pair) {
-    const auto a = corner_below(pair.first), b = corner_below(pair.second);
+  void join(std::uint32_t first, std::uint32_t second) {
+    const auto a = corner_below(first), b = corner_below(second);
     if (a && b) sets_.unite(*a, *b);
   }
 
@@ -76,15 +76,13 @@ struct Asked {
 Asked expect_the_same_parts(const Mesh& mesh) {
   const Solid solid = make_solid(mesh);
   const PieceInput input(solid);
-  std::vector<Pair> all;  // with their triangles' new numbers
+  std::set<std::pair<std::uint32_t, std::uint32_t>> all;  // with their triangles' new numbers
   for (std::uint32_t v = 0; v < input.mesh.points.size(); ++v) {
-    for (const Pair& pair : input.crossings.at(v)) {
-      EXPECT_TRUE(uses(input.mesh.triangles[pair.first], v));
-      if (pair.first < pair.second) all.push_back(pair);
+    for (const CrossingPairs::Crossing& crossing : input.crossings.at(v)) {
+      EXPECT_TRUE(uses(input.mesh.triangles[crossing.triangle], v));
+      all.insert(std::minmax(crossing.triangle, crossing.other));
     }
   }
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   EXPECT_EQ(all.size(), solid.crossings.size());
   Asked count;
   FourTree::Lists lists;
@@ -92,11 +90,11 @@ Asked expect_the_same_parts(const Mesh& mesh) {
   for (const Vec3& x : places_of(lattice_of_points(solid, 300))) {
     const Vec3 d = draw_direction(random);
     Parts few(input.mesh, x, d), many = few, none = few;
-    for (const Pair& pair : all) many.join(pair);
+    for (const auto& [i, j] : all) many.join(i, j);
     input.crossings.each_new(
         x, d, lists, [&](std::uint32_t v) { return few.below(v); },
-        [&](const Pair& pair) {
-          few.join(pair);
+        [&](const CrossingPair& pair) {
+          few.join(pair.first, pair.second);
           ++count.asked;
         });
     EXPECT_TRUE(same_parts(few.numbers(), many.numbers()));
@@ -127,7 +125,7 @@ TEST(CrossingPairsTest, OthersHaveNone) {
   EXPECT_TRUE(input.crossings.at(0).empty());
   FourTree::Lists lists;
   input.crossings.each_new(
-      {}, {1, 0, 0}, lists, [](std::uint32_t) { return true; }, [](const Pair&) { ADD_FAILURE(); });
+      {}, {1, 0, 0}, lists, [](std::uint32_t) { return true; }, [](const CrossingPair&) { ADD_FAILURE(); });
 }
 
 }  // namespace
