@@ -10,9 +10,9 @@ namespace {
 constexpr double kSteep = 0.5;   // see draw_end()
 constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
 
-// Radii of a section, from an end: what may lead to a corner of it.  And of the radius: what lies beside the middle there.
-constexpr double kCorner = 2, kBeside = 0.35;
-constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
+constexpr double kCorner = 2;     // radii of a section, from an end: what may lead to a corner of it
+constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
+constexpr double kWider = 1.1;    // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
 // Of a tube as long, what an end has: up to the one it is round, from the other on flat.
@@ -23,8 +23,7 @@ class DrawEnd {
   DrawEnd(const LineEndInput& input, std::vector<Vec3>& places) : in_(input), places_(places) {}
 
   void run() {
-    const std::size_t first = before_corner();
-    const Vec3 along = outward_at(first);
+    const auto [first, along] = start();
     if (along == Vec3{}) return;
     const Vec3 from = at(first);
     double way = to_centre(from, along);
@@ -53,23 +52,27 @@ class DrawEnd {
     return n;
   }
 
-  // From where on a line is in the middle.
-  std::size_t before_corner() const {
+  struct Start {
+    std::size_t first;
+    Vec3 along;
+  };
+
+  // From where on a line is in the middle, and its direction there.
+  Start start() const {
     const std::size_t first =
         first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
     const std::size_t inner = first_away([&](std::size_t n, double way) {
       return n < first || way < kCorner * section(at(n), outward_at(n)).radius;
     });
-    if (inner + 2 + in_.in_joint >= in_.line.size()) return first;
-    const Vec3 along = outward_at(inner);
-    const double radius = section(at(inner), along).radius;
-    bool leaves = false;
-    for (std::size_t n = 0; n < inner; ++n) {
-      const LimbSection here = section(at(n), along);
-      if (here.radius > kWider * radius) return first;
-      leaves |= norm(here.centre - at(n)) > kBeside * here.radius;
-    }
-    return leaves ? inner : first;
+    const Start round{first, outward_at(first)};
+    if (2 * inner + in_.in_joint >= in_.line.size()) return round;
+    const double stretch = kCorner * section(at(inner), outward_at(inner)).radius;
+    const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
+    if (dot(along, unit(at(0) - at(first))) > kTurned) return round;
+    const double widest = kWider * section(at(inner), along).radius;
+    for (std::size_t n = 0; n < inner; ++n)
+      if (section(at(n), along).radius > widest) return round;
+    return {inner, along};
   }
 
   double to_centre(const Vec3& from, const Vec3& along) const {
