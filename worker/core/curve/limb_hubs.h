@@ -34,7 +34,7 @@ struct LimbHubs {
 struct LimbHubsInput {
   std::span<const Vec3> places;                       ///< per vertex
   std::span<const std::vector<std::uint32_t>> lines;  ///< see polylines(), by numbers in places
-  std::span<const double> radius;  ///< per vertex: see limb_radii(), of what is nearest to it
+  std::span<const double> radius;                     ///< per vertex: see slice_radii()
   const Lattice& lattice;
   std::span<const std::uint32_t> nearest;  ///< per point: a vertex
   ExecutionContext* context = nullptr;     ///< asked whether to stop
