@@ -20,7 +20,7 @@ struct LimbHub {
   Vec3 centre;
   Matrix3 form{};  ///< (form * way) . way is 1 on the ellipsoid
 
-  /// How far a place is outside, along the way from the centre; within less than 0.
+  /// About how far a place is outside; within less than 0.
   double outside(const Vec3& at) const;
 };
 
