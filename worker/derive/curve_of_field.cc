@@ -5,7 +5,6 @@
 
 #include "base/number_text.h"
 #include "base/ridge_threshold.h"
-#include "core/curve/limb_radii.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
@@ -77,7 +76,7 @@ v1::TriangleMesh CurveOfField::message_of(const core::CurveSkeleton& curve, doub
   message.mutable_distance()->Add(curve.distance.begin(), curve.distance.end());
   message.mutable_share()->Add(curve.share.begin(), curve.share.end());
   message.mutable_beyond()->Add(curve.beyond.begin(), curve.beyond.end());
-  for (const double radius : radii_of(curve)) message.add_radius(radius);
+  for (const double radius : curve.radius) message.add_radius(radius);
   for (const std::uint32_t part : graph_of(curve).part) message.add_part(part + 1);
   append_segments(curve, message);
   *message.mutable_quality() = quality_of(curve, threshold);
@@ -90,14 +89,8 @@ std::vector<core::Vec3> CurveOfField::places_of(const core::CurveSkeleton& curve
   return places;
 }
 
-std::vector<double> CurveOfField::radii_of(const core::CurveSkeleton& curve) const {
-  const std::vector<core::Vec3> places = places_of(curve);
-  return core::limb_radii(
-      {places, curve.segments, curve.share, curve.slice, curve.distance, field_.job().solid().volume});
-}
-
 core::CurveGraph CurveOfField::graph_of(const core::CurveSkeleton& curve) const {
-  return core::curve_graph(places_of(curve), curve.segments, radii_of(curve), curve.share);
+  return core::curve_graph(places_of(curve), curve.segments, curve.radius, curve.share);
 }
 
 std::vector<std::uint32_t> parts_of_points(const core::CurveSkeleton& curve, const core::CurveGraph& graph) {

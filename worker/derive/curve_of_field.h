@@ -26,9 +26,6 @@ class CurveOfField {
   /// As SURFACE gives it, with quality and parts.
   v1::TriangleMesh message_of(const core::CurveSkeleton& curve, double threshold) const;
 
-  /// Per vertex, mesh units; see limb_radii().
-  std::vector<double> radii_of(const core::CurveSkeleton& curve) const;
-
   /// In mesh coordinates.
   core::CurveGraph graph_of(const core::CurveSkeleton& curve) const;
 

@@ -11,6 +11,7 @@
 #include "core/curve/joint_balls.h"
 #include "core/curve/limb_forks.h"
 #include "core/curve/limb_sections.h"
+#include "core/curve/line_ends.h"
 #include "core/curve/parabola_fit.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
@@ -35,9 +36,6 @@ constexpr double kFitted = 5;      // vertices that tell of a parabola
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
 constexpr double kRound = 0.75, kFlat = 0.55;
-constexpr double kSteep = 0.5;   // see centre_lines()
-constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
-
 // How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
 constexpr double kHold = 0.02;
 
@@ -245,31 +243,16 @@ class CentreLines {
     return moved;
   }
 
-  // The direction of a line `gap` beyond its vertex n, away from `last`: it bends on as it does over two stretches on this
-  // side, as far as they are known.
-  Vec3 outward(const std::vector<std::uint32_t>& line, std::size_t n, std::size_t last, double stretch,
-               double gap) const {
-    const auto go_on = [&](std::size_t k) {
-      const Vec3 start = places_[line[k]];
-      while (norm(places_[line[k]] - start) < stretch && k != last) k += n > last ? std::size_t(-1) : 1;
-      return k;
-    };
-    const std::size_t far = go_on(n), farther = go_on(far);
-    const Vec3 here = places_[line[n]] - places_[line[far]],
-               there = places_[line[far]] - places_[line[farther]];
-    const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
-    return unit(unit(here) + bend * (unit(here) - unit(there)));
-  }
-
   // |(x - q) x t|^2, by the square of the limb's thickness there.
   void add_line(const std::vector<std::uint32_t>& line, const Free& free, bool from_last,
                 Meeting& meeting) const {
-    const std::size_t n = from_last ? free.last - 1 : free.first;
-    const Vec3& q = places_[line[n]];
+    std::vector<std::uint32_t> inwards(line.begin() + static_cast<std::ptrdiff_t>(free.first),
+                                       line.begin() + static_cast<std::ptrdiff_t>(free.last));
+    if (from_last) std::reverse(inwards.begin(), inwards.end());
+    const Vec3& q = places_[inwards[0]];
     const double ball = thickness_at(q, distance_.nearest(q));
     const double gap = norm(places_[from_last ? line.back() : line.front()] - q);
-    const Vec3 t =
-        outward(line, n, from_last ? free.first : free.last - 1, 2 * kDirection * ball + input_.spacing, gap);
+    const Vec3 t = outward(places_, inwards, 2 * kDirection * ball + input_.spacing, gap);
     if (t == Vec3{}) return;
     const double weight = ball * ball;
     const Vec3 to = q - dot(q, t) * t;
@@ -337,37 +320,12 @@ class CentreLines {
     if (free.last < line.size()) draw(free.last - 1, line.size() - 1);
   }
 
-  void find_ends(const std::vector<std::uint32_t>& line) {
-    for (const bool from_last : {false, true}) {
-      const std::uint32_t end = from_last ? line.back() : line.front();
-      if (line.size() > 1 && neighbours_[end].size() == 1 && input_.has_tip[end]) find_end(line, from_last);
-    }
-  }
-
-  // The line is gone along, and straight on beyond its end.
-  void find_end(const std::vector<std::uint32_t>& line, bool from_last) {
-    const auto number = [&](std::size_t n) { return from_last ? line.size() - 1 - n : n; };
-    const auto at = [&](std::size_t n) -> Vec3& { return places_[line[number(n)]]; };
-    const double around = kEndMoves * input_.spacing;
-    std::size_t first = 0;
-    while (first + 2 < line.size() && norm(at(first) - at(0)) < around) ++first;
-    const double stretch = kDirection * distance_.nearest(at(first)) + input_.spacing;
-    const Vec3 along = outward(line, number(first), number(line.size() - 1), stretch, 0);
-    if (along == Vec3{}) return;
-    const Vec3 from = at(first);
-    const double known =
-        std::max({0.0, dot(input_.tip[line[number(0)]] - from, along), dot(at(0) - from, along)});
-    const double step = input_.spacing / 4;
-    const double farthest = known + around;
-    double way = 0;
-    while (way < farthest && inside(from + (way + input_.spacing) * along) &&
-           distance_.nearest(from + way * along) - distance_.nearest(from + (way + input_.spacing) * along) <
-               kSteep * input_.spacing)
-      way += step;
-    way += input_.spacing / 2;
-    for (std::size_t n = 0; n < first; ++n)
-      at(n) = from + (way * static_cast<double>(first - n) / static_cast<double>(first)) * along;
-    if (first == 0) at(0) = from + way * along;
+  void find_ends(std::vector<std::uint32_t> line) {
+    for (int end = 0; end < 2; ++end, std::reverse(line.begin(), line.end()))
+      if (line.size() > 1 && neighbours_[line[0]].size() == 1 && input_.has_tip[line[0]])
+        draw_end({sections_, distance_, membership_, input_.spacing, line, in_joint(line, true),
+                  input_.tip[line[0]]},
+                 places_);
   }
 
   const CentreLinesInput& input_;

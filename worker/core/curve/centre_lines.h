@@ -23,8 +23,7 @@ struct CentreLinesInput {
 /// processing approach to fair surface design", 1995).  Where a limb is one, each vertex goes to the centroid of the
 /// section across (see LimbSections).  Where limbs meet, in the largest ball about the joint, sections say nothing: the
 /// joint goes to where the lines of its limbs would meet (least squares), straight on from there; where these are about
-/// parallel, to where the limbs part as far from it as they are thick (see LimbFork).  An end goes along its
-/// line to where the distance to the surface begins to fall by more than half of the way, the centre of a round tip.
+/// parallel, to where the limbs part as far from it as they are thick (see LimbFork).  Free ends: see draw_end().
 /// No vertex leaves the solid: each stays in a ball that does not.
 /// @param places per vertex, in the surface's coordinates, within the solid.
 /// @throws CoreError kCancelled when the context asks to stop.

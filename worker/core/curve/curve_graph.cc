@@ -233,13 +233,15 @@ class GraphOfCurve {
   void measure_radius(CurveBranch& branch) const {
     const auto& vertices = branch.vertices;
     const auto number = static_cast<std::uint32_t>(&branch - graph_.branches.data());
-    const bool has_own = std::any_of(vertices.begin(), vertices.end(),
-                                     [&](std::uint32_t v) { return graph_.part[v] == number; });
+    const auto is_own = [&](std::uint32_t v) {  // a joint is as thick as all its limbs
+      return graph_.part[v] == number && (ends_[v] < 3 || vertices.size() == 1);
+    };
+    const bool has_own = std::any_of(vertices.begin(), vertices.end(), is_own);
     double sum = 0, length = 0;
     branch.least_radius = std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < vertices.size(); ++n) {
       const std::uint32_t v = vertices[n];
-      if (has_own && graph_.part[v] != number) continue;
+      if (has_own && !is_own(v)) continue;
       double around = vertices.size() == 1 ? 1 : 0;
       if (n > 0) around += norm(places_[v] - places_[vertices[n - 1]]);
       if (n + 1 < vertices.size()) around += norm(places_[v] - places_[vertices[n + 1]]);

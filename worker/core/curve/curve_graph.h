@@ -22,7 +22,7 @@ struct CurveBranch {
   double length = 0;                    ///< along the line, from where it leaves a body that it hangs on
   double straight_length = 0;           ///< from end to end of that
   double share = 0;                     ///< see CurveGraph::part; 0 when no vertex is its own
-  /// Of its own vertices, see CurveGraph::part, or of all where it has none; the mean along the line.
+  /// Of its own vertices, see CurveGraph::part, without joints, or of all where it has none; the mean along the line.
   double mean_radius = 0, least_radius = 0, greatest_radius = 0;
   /// Degrees, at `from`, to the first other branch there: 180 goes straight on; NaN without another.
   double angle = 0;

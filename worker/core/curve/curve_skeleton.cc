@@ -9,6 +9,7 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
+#include "core/base/unit.h"
 #include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"
@@ -219,6 +220,52 @@ void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& c
   for (Opening& opening : curve.opened) opening.distance = distance(opening.place);
 }
 
+// Of sections across lines, which have their directions by what lies in balls about the vertices.
+std::vector<double> areas_of(const LimbSections& sections, std::span<const Vec3> places,
+                             std::span<const double> balls, std::span<const Segment> segments) {
+  std::vector<double> areas(places.size(), 0);
+  for (const auto& line : polylines(places.size(), segments)) {
+    for (std::size_t n = 0; n < line.size(); ++n) {
+      const Vec3& at = places[line[n]];
+      std::size_t low = n, high = n;
+      while (low > 0 && norm(places[line[low]] - at) < balls[line[n]]) --low;
+      while (high + 1 < line.size() && norm(places[line[high]] - at) < balls[line[n]]) ++high;
+      const Vec3 across = unit(places[line[high]] - places[line[low]]);
+      if (across != Vec3{}) areas[line[n]] = sections.area(at, across);
+    }
+  }
+  return areas;
+}
+
+std::vector<char> vertices_in_joints(std::span<const Vec3> places,
+                                     std::span<const std::vector<std::uint32_t>> lines,
+                                     std::span<const std::vector<LimbFork>> forks) {
+  std::vector<char> in_joint(places.size(), 0);
+  for (std::uint32_t l = 0; l < lines.size(); ++l) {
+    const auto& line = lines[l];
+    const std::size_t first = before_forks(places, lines, forks[line.front()], {l, false});
+    const std::size_t last = before_forks(places, lines, forks[line.back()], {l, true});
+    for (std::size_t n = 0; n < line.size(); ++n)
+      if (n < first || n + last >= line.size()) in_joint[line[n]] = 1;
+  }
+  return in_joint;
+}
+
+// In the coordinates of the mesh, so that sections are across.
+void find_radii(const Solid& solid, const Lattice& lattice, std::span<const char> in_joint,
+                CurveSkeleton& curve) {
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : curve.vertices)
+    places.push_back(scaled_from_frame(lattice, vertex.position));
+  std::vector<double> balls = curve.distance;
+  for (double& ball : balls) ball /= solid.scale();
+  const double volume = solid.volume / (solid.scale() * solid.scale() * solid.scale());
+  const std::vector<double> tube = slice_radii({places, curve.segments, curve.slice, balls, volume});
+  const std::vector<double> area = areas_of(LimbSections(solid.mesh), places, balls, curve.segments);
+  curve.radius = limb_radii({curve.segments, curve.share, curve.slice, tube, area, in_joint, volume});
+  for (double& radius : curve.radius) radius *= solid.scale();
+}
+
 void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
   give_the_rest(lattice, curve);
   const Mesh surface = surface_in_frame(solid, lattice);
@@ -243,8 +290,7 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   };
   curve.slice =
       for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, beside, at, nearest); });
-  const std::vector<double> radius =
-      limb_radii({places, curve.segments, curve.slice, curve.slice, balls, solid.volume});
+  const std::vector<double> radius = slice_radii({places, curve.segments, curve.slice, balls, solid.volume});
   const auto lines = polylines(places.size(), curve.segments);
   LimbHubs hubs = limb_hubs({places, lines, radius, lattice, curve.nearest, context});
   const auto forks = limb_forks(places, lines, sections, lattice.spacing);
@@ -254,6 +300,7 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
                         });
   curve.share = for_each([&](const Vec3& at, std::uint32_t nearest) { return tubes.vertex_of(at, nearest); });
   curve.beyond = volume_beyond(curve.segments, curve.share);
+  find_radii(solid, lattice, vertices_in_joints(places, lines, forks), curve);
 }
 
 // The lines in their places, and which vertices of the ridge theirs are.

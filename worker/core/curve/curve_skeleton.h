@@ -30,6 +30,7 @@ struct CurveSkeleton : SheetMesh {
   std::vector<double> distance;  ///< per vertex: to the surface of the solid, mesh units
   std::vector<double> slice;  ///< per vertex: of all sample points, those that it is nearest to; adds up to 1
   std::vector<double> share;  ///< per vertex: of all sample points, those of `nearest`; adds up to 1
+  std::vector<double> radius;  ///< per vertex: see limb_radii(), mesh units
   std::vector<double> beyond;  ///< per vertex: share of all sample points; see volume_beyond()
   /// Per sample point: the vertex that it belongs to, see realms(), and LimbTubes where limbs meet; of a fragment, where no
   /// way leads, the nearest.

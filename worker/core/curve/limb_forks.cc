@@ -72,4 +72,17 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
   return forks;
 }
 
+std::size_t before_forks(std::span<const Vec3> places, std::span<const std::vector<std::uint32_t>> lines,
+                         std::span<const LimbFork> forks, const LimbFork::End& limb) {
+  const auto& line = lines[limb.line];
+  const auto at = [&](std::size_t n) { return places[line[limb.back ? line.size() - 1 - n : n]]; };
+  std::size_t count = 0;
+  const auto is_ahead = [&](const LimbFork& fork) {
+    return (fork.limbs[0] == limb || fork.limbs[1] == limb) &&
+           dot(fork.place - at(count), at(count + 1) - at(count)) > 0;
+  };
+  while (count + 1 < line.size() && std::any_of(forks.begin(), forks.end(), is_ahead)) ++count;
+  return count;
+}
+
 }  // namespace affskel::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,5 +35,10 @@ double ahead(const Vec3& way, const Vec3& direction);
 std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
                                               std::span<const std::vector<std::uint32_t>> lines,
                                               const LimbSections& sections, double step);
+
+/// How many vertices of a limb, from its joint on, have sections that reach into the others: they part from it no sooner.
+/// @param forks of the joint at this end.
+std::size_t before_forks(std::span<const Vec3> places, std::span<const std::vector<std::uint32_t>> lines,
+                         std::span<const LimbFork> forks, const LimbFork::End& limb);
 
 }  // namespace affskel::core

@@ -182,11 +182,12 @@ class FindHubs {
 
 }  // namespace
 
+// By how it grows there: along the way from the centre the rim of a flat body would be far away.
 double LimbHub::outside(const Vec3& at) const {
-  const Vec3 way = at - centre;
-  const double square = dot(way, form * way);
+  const Vec3 way = at - centre, steep = form * way;
+  const double square = dot(way, steep);
   if (!(square > 0)) return -std::numeric_limits<double>::infinity();
-  return norm(way) * (1 - 1 / std::sqrt(square));
+  return (square - std::sqrt(square)) / norm(steep);
 }
 
 LimbHubs limb_hubs(const LimbHubsInput& input) {

@@ -20,7 +20,7 @@ struct LimbHub {
   Vec3 centre;
   Matrix3 form{};  ///< (form * way) . way is 1 on the ellipsoid
 
-  /// How far a place is outside, along the way from the centre; within less than 0.
+  /// About how far a place is outside; within less than 0.
   double outside(const Vec3& at) const;
 };
 
@@ -34,7 +34,7 @@ struct LimbHubs {
 struct LimbHubsInput {
   std::span<const Vec3> places;                       ///< per vertex
   std::span<const std::vector<std::uint32_t>> lines;  ///< see polylines(), by numbers in places
-  std::span<const double> radius;  ///< per vertex: see limb_radii(), of what is nearest to it
+  std::span<const double> radius;                     ///< per vertex: see slice_radii()
   const Lattice& lattice;
   std::span<const std::uint32_t> nearest;  ///< per point: a vertex
   ExecutionContext* context = nullptr;     ///< asked whether to stop

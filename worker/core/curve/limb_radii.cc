@@ -11,10 +11,12 @@
 namespace affskel::core {
 namespace {
 
-// Vertices on either side: slices of one step hold too few sample points to tell their thickness.
+// Vertices on either side: slices of one step hold too few sample points to tell their thickness, and noise changes one
+// section.
 constexpr std::size_t kWindow = 4;
 
 constexpr double kWhole = 0.99;  // of a slice
+constexpr double kOpen = 1.3;    // tubes: of a section that reaches into others
 
 // From a place in a row on; itself where there is none.
 std::size_t nearest_whole(const std::vector<char>& whole, std::size_t n) {
@@ -25,55 +27,93 @@ std::size_t nearest_whole(const std::vector<char>& whole, std::size_t n) {
   return n;
 }
 
-}  // namespace
+// Vertices about one, as far as all between are whole: [low, high).
+struct Window {
+  std::size_t low, high;
+};
 
-std::vector<double> limb_radii(const LimbRadiiInput& input) {
-  const std::size_t vertices = input.places.size();
-  const auto lines = polylines(vertices, input.segments);
-  std::vector<std::uint32_t> ends(vertices, 0);  // of lines
+template <class IsWhole>
+Window window(std::size_t n, std::size_t count, const IsWhole& is_whole) {
+  Window around{n, n + 1};
+  while (around.low > 0 && n - around.low < kWindow && is_whole(around.low - 1)) --around.low;
+  while (around.high < count && around.high - n <= kWindow && is_whole(around.high)) ++around.high;
+  return around;
+}
+
+std::vector<std::uint32_t> ends_of(std::size_t vertices,
+                                   const std::vector<std::vector<std::uint32_t>>& lines) {
+  std::vector<std::uint32_t> ends(vertices, 0);
   for (const auto& line : lines)
     for (const std::uint32_t v : {line.front(), line.back()}) ++ends[v];
-  const auto is_body = [&](std::uint32_t v) { return ends[v] > 2 && input.share[v] > input.slice[v]; };
-  std::vector<double> radius(vertices, 0);
+  return ends;
+}
+
+double radius_of_disc(double area) {
+  return std::sqrt(area / std::numbers::pi);
+}
+
+}  // namespace
+
+std::vector<double> slice_radii(const LimbSlices& input) {
+  const auto lines = polylines(input.places.size(), input.segments);
+  const std::vector<std::uint32_t> ends = ends_of(input.places.size(), lines);
+  std::vector<double> radius(input.places.size(), 0);
   for (const auto& line : lines) {
     const std::size_t count = line.size();
-    const auto is_joint = [&](std::size_t n) {
-      return (n == 0 || n + 1 == count) && ends[line[n]] > 2 && !is_body(line[n]);
-    };
-    std::vector<char> whole(count);
-    bool is_hidden = true;  // all of it lies in others
-    for (std::size_t n = 0; n < count; ++n) {
-      const double share = input.share[line[n]];
-      whole[n] = !is_joint(n) && !is_body(line[n]) && share > 0 && share >= kWhole * input.slice[line[n]];
-      is_hidden &= !whole[n];
-    }
-    if (is_hidden) std::fill(whole.begin(), whole.end(), 1);
-    // A joint has nothing: what is next to it has its share.
-    const auto& share = is_hidden ? input.slice : input.share;
     std::vector<double> volume(count + 1, 0), length(count + 1, 0);  // of all before
+    std::vector<char> whole(count);
     for (std::size_t n = 0; n < count; ++n) {
       const std::uint32_t v = line[n];
       const bool is_end = n == 0 || n + 1 == count;
       double own = is_end && ends[v] == 1 ? input.ball[v] : 0;
       if (n > 0) own += 0.5 * norm(input.places[v] - input.places[line[n - 1]]);
       if (n + 1 < count) own += 0.5 * norm(input.places[line[n + 1]] - input.places[v]);
-      volume[n + 1] = volume[n] + input.volume * share[v] / (is_end ? ends[v] : 1);
+      volume[n + 1] = volume[n] + input.volume * input.slice[v] / (is_end ? ends[v] : 1);
       length[n + 1] = length[n] + own;
+      whole[n] = !(is_end && ends[v] > 2) && input.slice[v] > 0;
     }
-    const auto radius_at = [&](std::size_t n) {
-      std::size_t low = n, high = n + 1;
-      while (low > 0 && n - low < kWindow && (whole[low - 1] || is_joint(low - 1))) --low;
-      while (high < count && high - n <= kWindow && (whole[high] || is_joint(high))) ++high;
-      return std::sqrt((volume[high] - volume[low]) / (length[high] - length[low]) / std::numbers::pi);
-    };
     for (std::size_t n = 0; n < count; ++n) {
+      const auto is_near = [&](std::size_t k) { return whole[k] || ends[line[k]] > 2; };
+      const auto [low, high] = window(nearest_whole(whole, n), count, is_near);
       // Where lines meet, the mean of theirs.
       const double weight = n == 0 || n + 1 == count ? ends[line[n]] : 1;
-      radius[line[n]] += radius_at(nearest_whole(whole, n)) / weight;
+      radius[line[n]] += radius_of_disc((volume[high] - volume[low]) / (length[high] - length[low])) / weight;
+    }
+  }
+  return radius;
+}
+
+std::vector<double> limb_radii(const LimbRadiiInput& input) {
+  const std::size_t vertices = input.share.size();
+  const auto lines = polylines(vertices, input.segments);
+  const std::vector<std::uint32_t> ends = ends_of(vertices, lines);
+  std::vector<double> radius(vertices, 0);
+  for (const auto& line : lines) {
+    const std::size_t count = line.size();
+    std::vector<char> whole(count);
+    const auto find_whole = [&](bool in_joints) {
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::uint32_t v = line[n];
+        whole[n] = ends[v] < 3 && (in_joints || !input.in_joint[v]) && input.share[v] > 0 &&
+                   input.share[v] >= kWhole * input.slice[v] && input.area[v] > 0 &&
+                   radius_of_disc(input.area[v]) < kOpen * input.tube[v];
+      }
+      return std::find(whole.begin(), whole.end(), 1) != whole.end();
+    };
+    const bool is_any = find_whole(false) || find_whole(true);
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto [low, high] =
+          window(nearest_whole(whole, n), count, [&](std::size_t k) { return whole[k]; });
+      double area = 0;
+      for (std::size_t k = low; k < high; ++k) area += input.area[line[k]];
+      const double weight = n == 0 || n + 1 == count ? ends[line[n]] : 1;  // as above
+      radius[line[n]] +=
+          (is_any ? radius_of_disc(area / static_cast<double>(high - low)) : input.tube[line[n]]) / weight;
     }
   }
   for (std::uint32_t v = 0; v < vertices; ++v)
-    if (is_body(v)) radius[v] = std::cbrt(0.75 / std::numbers::pi * input.volume * input.share[v]);
+    if (ends[v] > 2 && input.share[v] > input.slice[v])
+      radius[v] = std::cbrt(0.75 / std::numbers::pi * input.volume * input.share[v]);
   return radius;
 }
 

@@ -8,20 +8,34 @@
 
 namespace affskel::core {
 
-struct LimbRadiiInput {
+struct LimbSlices {
   std::span<const Vec3> places;       ///< per vertex
   std::span<const Segment> segments;  ///< as for polylines()
-  std::span<const double> share;      ///< per vertex: of the volume, what belongs to it
   std::span<const double> slice;      ///< per vertex: of the volume, what is nearest to it
   std::span<const double>
       ball;  ///< per vertex: distance to the surface; a free end reaches so far beyond itself
   double volume = 0;
 };
 
-/// How thick the solid is about the lines of its curve skeleton: the radius of the tube that has, over a few vertices on
-/// either side, the volume that belongs to them.  A vertex that has less than its slice lies in a thicker limb, as far as
-/// that goes: there its own is as thick as where it comes out.  The optimal section tells no thickness: all planes through a place
-/// on the axis of a tube cut off as much, however they are tilted.
+/// How thick the solid is about lines, whatever belongs to them: the radius of the tube that has, over a few vertices on
+/// either side, the volume that is nearest to them.
+/// @return per vertex; 0 for one without a line.
+std::vector<double> slice_radii(const LimbSlices& input);
+
+struct LimbRadiiInput {
+  std::span<const Segment> segments;  ///< as for polylines()
+  std::span<const double> share;      ///< per vertex: of the volume, what belongs to it
+  std::span<const double> slice;      ///< per vertex: of the volume, what is nearest to it
+  std::span<const double> tube;       ///< per vertex: see slice_radii()
+  std::span<const double> area;       ///< per vertex: of the section across the line
+  std::span<const char> in_joint;     ///< per vertex: whether that section reaches into other limbs
+  double volume = 0;
+};
+
+/// How thick limbs are: the radius of a disc as large as the section, as a mean over a few vertices on either side.  Where that
+/// reaches into other limbs, or is clearly more than the tube, or others have what is nearest to the vertex, a limb is as thick
+/// as where it comes out; a line that nowhere does is as thick as its tube.  The optimal section tells no thickness: all planes
+/// through a place on the axis of a tube cut off as much, however they are tilted.
 /// @return per vertex; 0 for one without a line, and for a body that limbs hang on (see limb_hubs()) that of a ball as large.
 std::vector<double> limb_radii(const LimbRadiiInput& input);
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "core/base/basis.h"
+#include "core/base/disjoint_sets.h"
 #include "core/base/plain_math.h"
 #include "core/mesh/box.h"
 
@@ -12,6 +16,9 @@ namespace {
 
 constexpr double kShort = 0.15;     // of rays: in a tube along one of the axes half of those across it
 constexpr double kNothing = 1e-12;  // of the squared reach: a ray that short says nothing more
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+const Box kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
 // The boxes about a place that its plane goes through.
 struct CutBoxes {
@@ -61,13 +68,40 @@ LimbSections::LimbSections(const Mesh& surface) : surface_(surface), tree_(boxes
   }
 }
 
+// Visits what a plane cuts of triangles, from edge to edge, relative to the place: the inside is on the left.
+template <class Visit>
+void LimbSections::cut(const Box& round, const Vec3& place, const Vec3& across, const Visit& visit) const {
+  tree_.visit(CutBoxes{round, place, across}, [&](std::uint32_t t) {
+    const Triangle& triangle = surface_.triangles[t];
+    std::array<Vec3, 3> corner;
+    std::array<double, 3> height;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = surface_.points[triangle[k]] - place;
+      height[k] = dot(corner[k], across);
+    }
+    std::array<Vec3, 2> ends;
+    std::array<Segment, 2> edges;
+    int count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if ((height[k] < 0) == (height[next] < 0)) continue;
+      const std::size_t end = height[k] < 0 ? 1 : 0;
+      ends[end] = corner[k] + (height[k] / (height[k] - height[next])) * (corner[next] - corner[k]);
+      edges[end] = {std::min(triangle[k], triangle[next]), std::max(triangle[k], triangle[next])};
+      ++count;
+    }
+    if (count == 2) visit(ends, edges);
+  });
+}
+
 LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const Vec3& v,
                                          double reach) const {
-  const Vec3 across = cross(u, v);
   Rays length;
   length.fill(reach);
-  const auto cut_by = [&](const Vec3& a, const Vec3& b) {  // relative to the place, in the plane
-    const std::array<double, 2> p{dot(a, u), dot(a, v)}, q{dot(b, u), dot(b, v)};
+  const Box round{{place.x - reach, place.y - reach, place.z - reach},
+                  {place.x + reach, place.y + reach, place.z + reach}};
+  cut(round, place, cross(u, v), [&](const auto& ends, const auto&) {
+    const std::array<double, 2> p{dot(ends[0], u), dot(ends[0], v)}, q{dot(ends[1], u), dot(ends[1], v)};
     for (std::size_t n = 0; n < kRays; ++n) {
       const double left = turns_[n][0] * p[1] - turns_[n][1] * p[0];
       const double right = turns_[n][0] * q[1] - turns_[n][1] * q[0];
@@ -77,24 +111,6 @@ LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const
           turns_[n][0] * (p[0] + part * (q[0] - p[0])) + turns_[n][1] * (p[1] + part * (q[1] - p[1]));
       if (way >= 0) length[n] = std::min(length[n], way);
     }
-  };
-  const Box round{{place.x - reach, place.y - reach, place.z - reach},
-                  {place.x + reach, place.y + reach, place.z + reach}};
-  tree_.visit(CutBoxes{round, place, across}, [&](std::uint32_t t) {
-    std::array<Vec3, 3> corner;
-    std::array<double, 3> height;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corner[k] = surface_.points[surface_.triangles[t][k]] - place;
-      height[k] = dot(corner[k], across);
-    }
-    std::array<Vec3, 2> ends;
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      if ((height[k] < 0) == (height[next] < 0)) continue;
-      ends[count++] = corner[k] + (height[k] / (height[k] - height[next])) * (corner[next] - corner[k]);
-    }
-    if (count == 2) cut_by(ends[0], ends[1]);
   });
   Rays sorted = length;
   std::nth_element(sorted.begin(), sorted.begin() + kRays / 2, sorted.end());
@@ -114,6 +130,42 @@ LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach
   }
   if (!(squares > 0)) return {place, 0};
   return {place + (1 / squares) * moment, std::sqrt(squares / static_cast<double>(kRays))};
+}
+
+double LimbSections::area(const Vec3& place, const Vec3& across) const {
+  const Vec3 u = unit_beside(across), v = cross(across, u);
+  struct Side {
+    std::array<Segment, 2> edges;
+    double area = 0;
+    int turns = 0;  // about the place
+  };
+  std::vector<Side> sides;
+  std::vector<Segment> edges;
+  cut(kEverywhere, place, across, [&](const auto& ends, const auto& of) {
+    const double a = dot(ends[0], u), b = dot(ends[0], v), c = dot(ends[1], u), d = dot(ends[1], v);
+    const double turn = a * d - b * c;
+    Side side{of, 0.5 * turn};
+    if ((b < 0) != (d < 0) && (turn > 0) == (d > b)) side.turns = d > b ? 1 : -1;
+    sides.push_back(side);
+    edges.insert(edges.end(), of.begin(), of.end());
+  });
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const auto number = [&](const Segment& edge) {
+    return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
+  };
+  DisjointSets outlines(edges.size());
+  for (const Side& side : sides) outlines.unite(number(side.edges[0]), number(side.edges[1]));
+  std::vector<Side> whole(edges.size());
+  for (const Side& side : sides) {
+    Side& outline = whole[outlines.find(number(side.edges[0]))];
+    outline.area += side.area;
+    outline.turns += side.turns;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Side& outline : whole)
+    if (outline.turns > 0 && outline.area > 0) least = std::min(least, outline.area);
+  return std::isfinite(least) ? least : 0;
 }
 
 LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const {

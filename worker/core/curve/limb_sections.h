@@ -42,6 +42,10 @@ class LimbSections {
   /// @param reach of the rays, > 0.
   LimbSection at(const Vec3& place, const Vec3& across, double reach) const;
 
+  /// The area of all that the plane through a place has of the solid round it, in whatever shape; what lies apart, as another
+  /// limb, or within, as a cavity, does not count.  0 from outside.
+  double area(const Vec3& place, const Vec3& across) const;
+
   /// @param u, v of the plane, unit vectors at right angles.
   /// @return of which no radius is more than kFlattest times another.
   LimbEllipse ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
@@ -60,6 +64,8 @@ class LimbSections {
   static constexpr std::size_t kRays = 32;
   using Rays = std::array<double, kRays>;
 
+  template <class Visit>
+  void cut(const Box& round, const Vec3& place, const Vec3& across, const Visit& visit) const;
   Rays outline(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
 
   const Mesh& surface_;

@@ -232,10 +232,11 @@ void LimbTubes::compare(Limb& limb, std::size_t end) const {
     const bool is_thicker = limbs_[other].size > kClearly * limb.size;
     (is_thicker ? limb.thicker : limb.others)[end].push_back(other);
   }
-  // Only the thickest goes on beyond its joint.
-  if (!limb.thicker[end].empty())
+  // Only the thickest goes on beyond its joint, and a hub is: a limb begins between two vertices.
+  const bool at_hub = hubs_.at(limb.ends[end]) != nullptr;
+  if (at_hub || !limb.thicker[end].empty())
     limb.rings[limb.index(end, 0)].thickness =
-        0.5 * norm(places_[limb.at(end, 1)] - places_[limb.at(end, 0)]);
+        (at_hub ? 1 : 0.5) * norm(places_[limb.at(end, 1)] - places_[limb.at(end, 0)]);
 }
 
 // Links and loops whose lines lie in the tubes of those that they meet, shorter ones first.

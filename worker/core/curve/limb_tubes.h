@@ -32,7 +32,7 @@ class LimbTubes {
   using EllipseAt = std::function<LimbEllipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach)>;
 
   /// @param places, ball, radius per vertex: how thick the solid is there, see LimbSections::thickness(), and see
-  ///   limb_radii(), of what is nearest to it. By those a limb is as thick as it is, however large the balls are where it lies in another.
+  ///   slice_radii(). By those a limb is as thick as it is, however large the balls are where it lies in another.
   /// @param segments as for polylines().
   /// @param forks per vertex, see limb_forks(), of the same polylines.
   LimbTubes(std::span<const Vec3> places, std::span<const Segment> segments, std::span<const double> ball,

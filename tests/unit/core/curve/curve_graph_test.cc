@@ -185,6 +185,18 @@ TEST(CurveGraph, AnglesAreThoseBeyondTheJoint) {
   EXPECT_NEAR(arm->angle, 90, 1e-6);
 }
 
+TEST(CurveGraph, AJointIsOfNoLimbsThickness) {
+  Lines lines = body();
+  std::vector<double> radius(lines.places.size(), 0.1);
+  std::vector<int> ends(lines.places.size(), 0);
+  for (const Segment& segment : lines.segments)
+    for (const std::uint32_t v : segment) ++ends[v];
+  for (std::size_t v = 0; v < radius.size(); ++v)
+    if (ends[v] > 2) radius[v] = 5;
+  for (const CurveBranch& branch : curve_graph(lines.places, lines.segments, radius, lines.even()).branches)
+    EXPECT_EQ(branch.greatest_radius, 0.1);
+}
+
 TEST(CurveGraph, OfALoopAndOfAPlace) {
   Lines lines;
   lines.places = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}};

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "core/curve/limb_radii.h"
-
 namespace affskel::core {
 
 Curved::Curved(const Mesh& mesh, double h, const std::string& directions)
@@ -23,9 +21,7 @@ CurveSkeleton Curved::at(double least_reach) const {
 CurveGraph Curved::graph(const CurveSkeleton& curve) const {
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : curve.vertices) places.push_back(place(vertex));
-  const std::vector<double> radius =
-      limb_radii({places, curve.segments, curve.share, curve.slice, curve.distance, solid_.solid.volume});
-  return curve_graph(places, curve.segments, radius, curve.share);
+  return curve_graph(places, curve.segments, curve.radius, curve.share);
 }
 
 }  // namespace affskel::core

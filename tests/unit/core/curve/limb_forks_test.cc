@@ -50,6 +50,20 @@ TEST(LimbForks, TwoLegsPartInTheCrotch) {
   EXPECT_NE(legs[0].limbs[0], legs[0].limbs[1]);
 }
 
+// A leg's section is its own from where it has passed the crotch.
+TEST(LimbForks, ALegIsInItsJointUpToThere) {
+  const double slant = 0.3;
+  const Forked body(slant);
+  const auto legs = body.of_legs();
+  ASSERT_EQ(legs.size(), 1U);
+  for (const LimbFork::End& leg : legs[0].limbs) {
+    const std::size_t count = before_forks(body.places, body.lines, body.forks[0], leg);
+    const double along = 0.5 / std::sin(slant) * std::cos(slant);
+    EXPECT_NEAR(0.1 * static_cast<double>(count), along, 0.2);
+    EXPECT_EQ(before_forks(body.places, body.lines, {}, leg), 0U);
+  }
+}
+
 TEST(LimbForks, ThatPlaceStaysWhereTheJointMoves) {
   const double slant = 0.3, before = Forked(slant).of_legs().at(0).place.z;
   for (const double top : {0.3, 0.6}) {

@@ -174,6 +174,18 @@ TEST(LimbTubes, AHubHasItsEllipsoid) {
   EXPECT_GT(lines.owner({1.3, 0, -0.1}).x, 1.4) << "nearest to the hub's own line, and to a leg's tube";
 }
 
+// A leg under the corner of a seat: what lies above it is the seat's, though the ellipsoid does not reach it.
+TEST(LimbTubes, ALegDoesNotGoOnIntoItsHub) {
+  Tubed lines;
+  const std::uint32_t body = lines.add({0, 0, 0}, 1);
+  const std::uint32_t above = lines.go(body, {0.2, 0, 0}, 15, 1);
+  lines.of_hub = above + 1;
+  lines.go(above, {0, 0, -0.1}, 60, 0.6);
+  lines.hubs = {{body, {}, {{{1. / 9.2, 0, 0}, {0, 1. / 9.2, 0}, {0, 0, 9}}}}};  // up to there, flat
+  EXPECT_EQ(lines.owner({3.2, 0, 0.3}, above + 1), lines.places[body]);
+  EXPECT_LT(lines.owner({3.2, 0, -0.4}).z, -0.1) << "the leg's";
+}
+
 TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {
   Tubed lines;
   const std::uint32_t joint = lines.add({0, 0, 0}, 1.3);

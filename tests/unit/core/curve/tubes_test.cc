@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/curve/curved.h"
@@ -118,9 +119,50 @@ TEST(Tubes, AnArmHasItsLengthAngleAndVolume) {
     EXPECT_NEAR(std::min(arm.angle, 180 - arm.angle), angle, 2);
     EXPECT_NEAR(arm.share * solid.volume / volume_where(tubes[1], outside_trunk), 1, 0.01) << angle;
     for (const Vec3& end : {tubes[0].from, tubes[0].to}) EXPECT_NEAR(solid.to(end).length, 10, solid.h);
+    // Its own all along: near the joint sections have a part of the other.
+    for (const auto& [end, radius] : {std::pair{tubes[0].from, 1.}, {tubes[0].to, 1.}, {tubes[1].to, 0.5}}) {
+      EXPECT_NEAR(solid.to(end).least_radius, radius, 0.02 * radius) << angle;
+      EXPECT_NEAR(solid.to(end).greatest_radius, radius, 0.02 * radius) << angle;
+    }
     double sum = 0;
     for (const CurveBranch& branch : solid.graph.branches) sum += branch.share;
     EXPECT_NEAR(sum, 1, 1e-9);
+  }
+}
+
+// Arms of a ball begin at it: what is nearest to their lines there is a part of it.
+TEST(Tubes, ArmsOfABallAreAsThickAsTheyAre) {
+  std::vector<Tube> tubes{{{0, 0, 0}, {0, 0, 0.01}, 5.5}};
+  for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}})
+    tubes.push_back({{}, 13 * way, 1});
+  const Measured solid = measured(tube_mesh(tubes, 0.3));
+  ASSERT_EQ(solid.graph.branches.size(), 5U);
+  for (const CurveBranch& branch : solid.graph.branches) {
+    if (branch.kind == BranchKind::kPoint) continue;
+    EXPECT_NEAR(branch.least_radius, 1, 0.03);
+    EXPECT_NEAR(branch.greatest_radius, 1, 0.03);
+  }
+}
+
+// Lines lead into the corners at its ends, or stop as far before as it is thick.
+TEST(Tubes, ABarIsAsLongAsFromFaceToFace) {
+  constexpr double kLength = 16;
+  const auto bar = [](Mesh mesh) {
+    for (Vec3& p : mesh.points) p = turned(p);
+    return measured(mesh, 10'000);
+  };
+  const double flat = std::sqrt(8 / pi), triangle = std::sqrt(0.75 * std::sqrt(3.) / pi) * 1.5;
+  for (const auto& [mesh, radius] : {std::pair{make_box(2, 2, kLength, 16), std::sqrt(4 / pi)},
+                                     {make_box(4, 2, kLength, 16), flat},
+                                     {make_cylinder(1.5, kLength, 3), triangle},
+                                     {make_cylinder(1, kLength, 24), 1.}}) {
+    const Measured solid = bar(mesh);
+    ASSERT_EQ(solid.graph.branches.size(), 1U);
+    const CurveBranch& axis = solid.graph.branches[0];
+    EXPECT_NEAR(axis.length, kLength, solid.h) << radius;
+    EXPECT_NEAR(axis.straight_length, kLength, solid.h) << radius;
+    EXPECT_NEAR(axis.mean_radius, radius, 0.02 * radius);
+    EXPECT_NEAR(axis.greatest_radius, radius, 0.03 * radius);
   }
 }
 

@@ -1,0 +1,99 @@
+#include "core/curve/limb_radii.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "core/curve/drawn_lines.h"
+
+namespace affskel::core {
+namespace {
+
+using std::numbers::pi;
+
+// Three lines of 20 vertices from a joint, as thick as 2, 1 and 1; all of them have their slices, the joint has nothing.
+struct ThreeLimbs : DrawnLines {
+  std::vector<double> share, slice, tube, area;
+  std::vector<char> in_joint;
+
+  ThreeLimbs() {
+    const std::uint32_t joint = add({0, 0, 0}, 2);
+    go(joint, {0, 0, 1}, 20, 2);
+    go(joint, {1, 0, 0}, 20, 1);
+    go(joint, {-1, 0, 0}, 20, 1);
+    for (const double radius : ball) area.push_back(pi * radius * radius);
+    share.assign(places.size(), 0.01);
+    share[0] = 0;
+    slice = share;
+    tube = ball;
+    in_joint.assign(places.size(), 0);
+  }
+  std::vector<double> radii() const {
+    return limb_radii({segments, share, slice, tube, area, in_joint, 100});
+  }
+};
+
+constexpr std::uint32_t kFirstOfThin = 21;  // the first vertex of the second line
+
+TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
+  const ThreeLimbs limbs;
+  const std::vector<double> radius = limbs.radii();
+  for (std::size_t v = 1; v < radius.size(); ++v) EXPECT_NEAR(radius[v], limbs.ball[v], 1e-12) << v;
+  EXPECT_NEAR(radius[0], (2 + 1 + 1) / 3., 1e-12) << "of its lines the mean";
+}
+
+TEST(LimbRadii, InAJointAreThoseOfWhereTheLimbComesOut) {
+  ThreeLimbs limbs;
+  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) {
+    limbs.area[v] = pi * 1.2 * 1.2;
+    limbs.in_joint[v] = 1;
+  }
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
+  limbs.in_joint.assign(limbs.places.size(), 0);
+  EXPECT_GT(limbs.radii()[kFirstOfThin], 1.1) << "or such a limb";
+}
+
+TEST(LimbRadii, OfASectionThatIsOpenSayNothing) {
+  ThreeLimbs limbs;
+  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) limbs.area[v] = pi * 4 * 4;
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
+}
+
+TEST(LimbRadii, InAThickerLimbAreThoseOfWhereALimbComesOut) {
+  ThreeLimbs limbs;
+  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) {
+    limbs.area[v] = pi * 1.2 * 1.2;
+    limbs.share[v] = 0;
+  }
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
+}
+
+TEST(LimbRadii, OfALineThatLiesInOthersAreItsTubes) {
+  ThreeLimbs limbs;
+  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 20; ++v) {
+    limbs.share[v] = 0;
+    limbs.tube[v] = 0.7;
+  }
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin + 7], 0.7, 1e-12);
+}
+
+TEST(LimbRadii, OfABodyThatLimbsHangOnAreABalls) {
+  ThreeLimbs limbs;
+  limbs.share[0] = 0.3;
+  EXPECT_NEAR(limbs.radii()[0], std::cbrt(0.75 / pi * 30), 1e-12);
+}
+
+TEST(SliceRadii, AreThoseOfTubesWithTheVolume) {
+  DrawnLines line;
+  line.go(line.add({0, 0, 0}, 0.5), {0, 0, 1}, 20, 0.5);
+  const double volume = pi * 0.25 * 21;  // half a segment beyond either end, as a ball reaches
+  const std::vector<double> slice(line.places.size(), 1. / 21);
+  for (const double radius : slice_radii({line.places, line.segments, slice, line.ball, volume}))
+    EXPECT_NEAR(radius, 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,76 @@
+#include "core/curve/line_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "core/curve/tubes.h"
+#include "core/shapes/shapes.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kSpacing = 0.1;
+
+// A line down the axis from z = 10, whose first vertices turn to a place; drawn again.
+std::vector<Vec3> drawn(const Mesh& mesh, double from, const Vec3& to) {
+  std::vector<Vec3> places;
+  const double turn = from - 0.9;
+  for (double part = 0; part < 1; part += 0.05) places.push_back(to + part * (Vec3{0, 0, turn} - to));
+  for (double z = turn; z > 2; z -= kSpacing) places.push_back({0, 0, z});
+  std::vector<std::uint32_t> line(places.size());
+  std::iota(line.begin(), line.end(), 0U);
+  const LimbSections sections(mesh);
+  const DistanceToMesh distance(mesh);
+  const SolidMembership solid(mesh);
+  draw_end({sections, distance, solid, kSpacing, line, 0, to}, places);
+  return places;
+}
+
+Mesh bar() {
+  Mesh box = make_box(2, 2, 10, 4);
+  for (Vec3& p : box.points) p = p - Vec3{1, 1, 0};
+  return box;
+}
+
+TEST(LineEnds, OfABarIsInItsFace) {
+  const Vec3 end = drawn(bar(), 10, {0, 0, 9.05})[0];
+  EXPECT_NEAR(end.z, 10, kSpacing);
+  EXPECT_LE(end.z, 10) << "within";
+}
+
+TEST(LineEnds, ALineThatTurnsToACornerGoesStraightOn) {
+  for (const Vec3& place : drawn(bar(), 10, {0.9, 0.9, 9.9}))
+    EXPECT_LT(std::hypot(place.x, place.y), 1e-6) << place.z;
+  EXPECT_NEAR(drawn(bar(), 10, {0.9, 0.9, 9.9})[0].z, 10, kSpacing);
+}
+
+TEST(LineEnds, OfARoundLimbIsTheCentreOfItsEnd) {
+  const Mesh tube = tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 10}, 1}}, 0.15);
+  EXPECT_NEAR(drawn(tube, 10, {0, 0, 10.3})[0].z, 10, kSpacing);
+}
+
+// A head on a neck: it is no bar.
+TEST(LineEnds, ALineTurnsInWhatIsWider) {
+  const Mesh head =
+      tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 10}, 0.5}, {{0, 0, 9.9}, {0, 0, 10}, 1.2}}, 0.15);
+  EXPECT_GT(drawn(head, 10, {0.6, 0, 10})[0].x, 0.4);
+}
+
+TEST(LineEnds, BeyondItALineBendsOnAsItDoes) {
+  std::vector<Vec3> circle;
+  for (int n = 0; n < 60; ++n) circle.push_back({10 * std::cos(0.02 * n), 10 * std::sin(0.02 * n), 0});
+  std::vector<std::uint32_t> line(circle.size());
+  std::iota(line.begin(), line.end(), 0U);
+  const Vec3 at_0 = outward(circle, line, 2, 0), beyond = outward(circle, line, 2, 2);
+  EXPECT_NEAR(at_0.x, 0, 0.03);
+  EXPECT_NEAR(at_0.y, -1, 0.01);
+  EXPECT_NEAR(std::asin(-beyond.x), 0.1, 0.05) << "half of the gap on";
+  EXPECT_EQ(outward(circle, std::vector<std::uint32_t>{3}, 2, 0), (Vec3{}));
+}
+
+}  // namespace
+}  // namespace affskel::core

@@ -1,0 +1,127 @@
+#include "core/curve/line_ends.h"
+
+#include <algorithm>
+
+#include "core/base/unit.h"
+
+namespace affskel::core {
+namespace {
+
+constexpr double kSteep = 0.5;   // see draw_end()
+constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
+
+constexpr double kCorner = 2;     // radii of a section, from an end: what may lead to a corner of it
+constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
+constexpr double kWider = 1.1;    // times: no bar's end, but a head or a foot
+
+constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
+// Of a tube as long, what an end has: up to the one it is round, from the other on flat.
+constexpr double kRoundEnd = 0.78, kFlatEnd = 0.9;
+
+class DrawEnd {
+ public:
+  DrawEnd(const LineEndInput& input, std::vector<Vec3>& places) : in_(input), places_(places) {}
+
+  void run() {
+    const auto [first, along] = start();
+    if (along == Vec3{}) return;
+    const Vec3 from = at(first);
+    double way = to_centre(from, along);
+    way += to_face(from + way * along, along);
+    const std::size_t count = std::max<std::size_t>(first, 1);
+    for (std::size_t n = 0; n < count; ++n)
+      places_[in_.line[n]] =
+          from + (way * static_cast<double>(count - n) / static_cast<double>(count)) * along;
+  }
+
+ private:
+  const Vec3& at(std::size_t n) const { return places_[in_.line[n]]; }
+
+  Vec3 outward_at(std::size_t n) const {
+    return outward(places_, in_.line.subspan(n), in_.distance.nearest(at(n)) + in_.spacing, 0);
+  }
+
+  LimbSection section(const Vec3& place, const Vec3& across) const {
+    return in_.sections.at(place, across, LimbSections::kSeen * in_.distance.nearest(place));
+  }
+
+  template <class IsNear>
+  std::size_t first_away(const IsNear& is_near) const {
+    std::size_t n = 0;
+    while (n + 2 < in_.line.size() && is_near(n, norm(at(n) - at(0)))) ++n;
+    return n;
+  }
+
+  struct Start {
+    std::size_t first;
+    Vec3 along;
+  };
+
+  // From where on a line is in the middle, and its direction there.
+  Start start() const {
+    const std::size_t first =
+        first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
+    const std::size_t inner = first_away([&](std::size_t n, double way) {
+      return n < first || way < kCorner * section(at(n), outward_at(n)).radius;
+    });
+    const Start round{first, outward_at(first)};
+    if (2 * inner + in_.in_joint >= in_.line.size()) return round;
+    const double stretch = kCorner * section(at(inner), outward_at(inner)).radius;
+    const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
+    if (dot(along, unit(at(0) - at(first))) > kTurned) return round;
+    const double widest = kWider * section(at(inner), along).radius;
+    for (std::size_t n = 0; n < inner; ++n)
+      if (section(at(n), along).radius > widest) return round;
+    return {inner, along};
+  }
+
+  double to_centre(const Vec3& from, const Vec3& along) const {
+    const double known = std::max({0.0, dot(in_.tip - from, along), dot(at(0) - from, along)});
+    const double farthest = known + kEndMoves * in_.spacing;
+    double way = 0;
+    while (way < farthest && in_.solid.contains(from + (way + in_.spacing) * along) &&
+           in_.distance.nearest(from + way * along) -
+                   in_.distance.nearest(from + (way + in_.spacing) * along) <
+               kSteep * in_.spacing)
+      way += in_.spacing / 4;
+    return way + in_.spacing / 2;
+  }
+
+  // How far a limb goes on beyond the centre of its end.
+  double to_face(const Vec3& centre, const Vec3& along) const {
+    const double step = in_.spacing / 8;
+    const double ball = in_.distance.nearest(centre), seen = LimbSections::kSeen * ball;
+    double reach = 0;
+    while (reach < kFace * ball && in_.solid.contains(centre + (reach + step) * along)) reach += step;
+    if (!(reach > 0) || reach >= kFace * ball) return 0;
+    const auto square = [&](double part) {
+      const double radius = in_.sections.at(centre + part * reach * along, along, seen).radius;
+      return radius * radius;
+    };
+    const double share = (square(0.25) + square(0.5) + square(0.75)) / (3 * square(0));
+    return reach * std::clamp((share - kRoundEnd) / (kFlatEnd - kRoundEnd), 0.0, 1.0);
+  }
+
+  const LineEndInput& in_;
+  std::vector<Vec3>& places_;
+};
+
+}  // namespace
+
+Vec3 outward(std::span<const Vec3> places, std::span<const std::uint32_t> line, double stretch, double gap) {
+  const auto go_on = [&](std::size_t n) {
+    const Vec3 start = places[line[n]];
+    while (norm(places[line[n]] - start) < stretch && n + 1 < line.size()) ++n;
+    return n;
+  };
+  const std::size_t far = go_on(0), farther = go_on(far);
+  const Vec3 here = places[line[0]] - places[line[far]], there = places[line[far]] - places[line[farther]];
+  const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
+  return unit(unit(here) + bend * (unit(here) - unit(there)));
+}
+
+void draw_end(const LineEndInput& input, std::vector<Vec3>& places) {
+  DrawEnd(input, places).run();
+}
+
+}  // namespace affskel::core
