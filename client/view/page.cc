@@ -222,8 +222,7 @@ ordered_json warnings_of(const ViewModel& model) {
   if (model.job.id().empty()) return warnings;
   for (const Notice& warning : skeleton_warnings(model.job.prepared(), model.quality))
     warnings.push_back(warning.message);
-  if (!model.quality.advice().empty())
-    warnings.push_back("the skeleton: " + model.quality.advice());
+  if (!model.quality.advice().empty()) warnings.push_back("the skeleton: " + model.quality.advice());
   return warnings;
 }
 
