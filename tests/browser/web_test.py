@@ -415,7 +415,10 @@ class Desktop(OnThePage):
         for left in ("skeleton in", "resume", "Download", "About this job", "Trying again"):
             self.assertNotIn(left, page.text())
         page.screenshot("desktop-17-deleted")
-        self.assertEqual([e for e in page.errors() if "404" not in e], [])
+        page.script("location.hash = '#job/noid'")
+        page.wait(lambda: "There is no such job" in page.text())
+        self.assertNotIn("Trying again", page.text())
+        self.assertEqual([e for e in page.errors() if "404" not in e and "/api/jobs/noid " not in e], [])
 
     def test_numbers_are_taken_as_they_are_typed(self):
         page = self.page
