@@ -81,7 +81,8 @@ CLI::Validator positive_number_or_share() {
   return CLI::Validator(
       [](std::string& text) -> std::string {
         std::string copy = text;
-        return text.ends_with('%') ? proper_share()(copy) : positive_number()(copy);
+        const bool good = (text.ends_with('%') ? proper_share() : positive_number())(copy).empty();
+        return good ? "" : "must be a number > 0 or a share below 100% as in 1%, not '" + text + "'";
       },
       "");
 }

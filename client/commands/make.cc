@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -70,10 +72,18 @@ CLI::App* shape(CLI::App* make, MakeOptions& options, const std::string& name, c
 }
 
 template <typename T>
+CLI::Validator above_zero() {
+  if constexpr (std::is_integral_v<T>)
+    return whole_number(1, std::numeric_limits<T>::max());
+  else
+    return positive_number();
+}
+
+template <typename T>
 void dimension(CLI::App* command, const std::string& name, T& value, const std::string& description,
                const char* type) {
   command->add_option(name, value, description)
-      ->check(positive_number())
+      ->check(above_zero<T>())
       ->capture_default_str()
       ->type_name(type);
 }

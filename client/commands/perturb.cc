@@ -113,7 +113,8 @@ void add_perturb(CommandLine& line) {
                "place move together.\n"
                "The same seed gives the same noise on every machine.",
                [options](Context& context) { run_perturb(context, *options); });
-  add_file(command, "FILE", options->file, std::string(kMeshKinds));
+  add_file(command, "FILE", options->file,
+           "Mesh: .off .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd");
   command->get_option("FILE")->check(mesh_file());
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");
   add_format(command, options->format);

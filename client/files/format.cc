@@ -62,7 +62,7 @@ FileFormat choose_format(const Destination& destination, std::span<const FileFor
     names += (names.empty() ? "" : ", ") + std::string(extension_of(format));
   }
   std::string refused = "cannot write the " + what + " as '" + extension + "'";
-  if (extension.empty()) refused = "cannot tell from no extension how to write the " + what;
+  if (extension.empty()) refused = "has no extension to tell how to write the " + what;
   if (extension.empty() && destination.is_stdout()) refused = "a format is needed for the " + what;
   throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, destination.name());
 }

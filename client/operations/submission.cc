@@ -86,14 +86,15 @@ void check_size(const v1::ServerInfo& server, const std::string& path, std::stri
   }
 }
 
-// "1.3 x 0.37 x 1.8 units, a person in metres".
+// "1.3 x 0.37 x 1.8 units, the size of a person in metres".
 std::string size_text(const core::Vec3& size, double longest) {
   std::string text = base::rounded(size.x, 3) + " x " + base::rounded(size.y, 3) + " x " +
                      base::rounded(size.z, 3) + " units";
   constexpr std::array<std::pair<double, const char*>, 3> kUnits = {
       {{1, "metres"}, {100, "centimetres"}, {1000, "millimetres"}}};
   for (const auto& [unit, name] : kUnits)
-    if (longest >= 0.5 * unit && longest <= 2.5 * unit) text += std::string(", a person in ") + name;
+    if (longest >= 0.5 * unit && longest <= 2.5 * unit)
+      text += std::string(", the size of a person in ") + name;
   return text;
 }
 

@@ -37,15 +37,12 @@ std::string encode_png(const Image& image) {
   description.width = static_cast<png_uint_32>(image.width());
   description.height = static_cast<png_uint_32>(image.height());
   description.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = 0;
-  std::string bytes;
-  bool good = png_image_write_get_memory_size(description, size, 0, pixels.data(), 0, nullptr) != 0;
-  if (good) {
-    bytes.resize(size);
-    good = png_image_write_to_memory(&description, bytes.data(), &size, 0, pixels.data(), 0, nullptr) != 0;
-    bytes.resize(size);
-  }
-  if (!good) throw ClientError(ExitCode::kInternal, std::string("libpng: ") + description.message);
+  // More than it takes: how much exactly, libpng finds out by compressing it once more.
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(description);
+  std::string bytes(size, '\0');
+  const int good = png_image_write_to_memory(&description, bytes.data(), &size, 0, pixels.data(), 0, nullptr);
+  if (good == 0) throw ClientError(ExitCode::kInternal, std::string("libpng: ") + description.message);
+  bytes.resize(size);
   return bytes;
 }
 

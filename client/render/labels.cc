@@ -11,6 +11,8 @@
 namespace affskel::client {
 namespace {
 
+constexpr double kHalo = 4;  // strokes: round black letters, to be read on dark parts and backgrounds
+
 // What the viewer sees first where a place is seen; none beside the body.
 std::optional<Rgb> colour_seen(const PaintedBody& body, const std::vector<PanelPlace>& points,
                                const PanelPlace& at) {
@@ -56,6 +58,7 @@ void draw_labels(const PaintedBody& body, const Panel& panel, ScreenPoint corner
              other.at.x < at.x + width + 0.3 * size;
     });
     if (runs_into || colour_seen(body, points, place) != label.colour) continue;
+    draw_text(image, at, label.text, size, kWhite, kHalo);
     draw_text(image, at, label.text, size, kInk);
     all.push_back({at, width});
   }

@@ -23,6 +23,12 @@ float clamp01(double v) {
   return static_cast<float>(std::min(1.0, std::max(0.0, v)));
 }
 
+// Of a mean of unit vectors, for each sample: nothing that needs the care of core's.
+Vec3 direction_of(const Vec3& mean) {
+  const double length = core::norm(mean);
+  return length > 0 ? (1 / length) * mean : mean;
+}
+
 // Light from the viewer's upper left.
 double lambert(double right, double up, double toward) {
   return std::max(0.0, -0.42 * right + 0.55 * up + 0.72 * toward);
@@ -226,14 +232,15 @@ void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normal
     const std::array<ScreenPoint, 3> corners = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
     const Vec3* n = &normals[3 * t];
     for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
-      const Vec3 normal = unit((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
+      const Vec3 normal = direction_of((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
       double facing = core::dot(normal, view_.toward);
       const double side = facing < 0 ? -1 : 1;
       facing *= side;
       const double light =
           lambert(side * core::dot(normal, view_.right), side * core::dot(normal, view_.up), facing);
       // Clear where it faces the viewer, denser towards the outline.
-      const float opacity = clamp01(glass.clear + glass.rim * std::pow(1 - facing, 2.5));
+      const double aside = std::max(0.0, 1 - facing);
+      const float opacity = clamp01(glass.clear + glass.rim * aside * aside * std::sqrt(aside));
       const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
       Sample& sample = at(x, y);
       Layers& layers = sample.covered && depth > sample.depth ? sample.front : sample.back;
@@ -254,7 +261,7 @@ void Panel::draw_shell(const core::Mesh& mesh, const std::vector<Vec3>& normals,
       const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
       ShellSample& sample = shell_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
       if (sample.opacity > 0 && depth <= sample.depth) return;
-      const Vec3 normal = unit((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
+      const Vec3 normal = direction_of((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
       const double light = lambert(core::dot(normal, view_.right), core::dot(normal, view_.up),
                                    std::fabs(core::dot(normal, view_.toward)));
       const auto shade = static_cast<float>(kSheetShade + (1 - kSheetShade) * light);

@@ -161,8 +161,10 @@ void draw_sheet(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, 
     panel.draw_ball({mesh.points[v], colours[v]}, curve_width);
 }
 
-std::vector<Rgb> colours_of(const RenderInput& input, double highest) {
-  if (input.painted) return std::vector<Rgb>(static_cast<std::size_t>(input.sheet.erosion_size()), kInk);
+// Of the sheet's vertices.  Through a painted body it shines as what is behind it does not.
+std::vector<Rgb> colours_of(const RenderInput& input, double highest, Rgb background) {
+  const Rgb ink = is_dark(background) ? kWhite : kInk;
+  if (input.painted) return std::vector<Rgb>(static_cast<std::size_t>(input.sheet.erosion_size()), ink);
   std::vector<Rgb> colours;
   for (const double e : input.sheet.erosion()) colours.push_back(viridis(colour_position(e, highest)));
   return colours;
@@ -201,7 +203,7 @@ void draw_view(Image& image, const RenderInput& input, const RenderOptions& opti
   Panel panel(width, height, shown.view, shown.centre, layout.scale());
   const double highest = highest_of(input);
   draw_points(input, layout, highest, panel);
-  const std::vector<Rgb> colours = colours_of(input, highest);
+  const std::vector<Rgb> colours = colours_of(input, highest, options.background);
   const double curve_width = std::max(2.0, layout.text / 5);
   draw_sheet(input.sheet, colours, curve_width, layout.scale(), panel);
   draw_marks(input, layout, panel);

@@ -139,7 +139,7 @@ double unit_y(char c) {
   return c >= 'a' ? -double(c - 'a' + 1) : double(c - '0');
 }
 
-void draw_glyph(Image& image, ScreenPoint at, std::string_view glyph, double unit, Rgb colour) {
+void draw_glyph(Image& image, ScreenPoint at, std::string_view glyph, double unit, double width, Rgb colour) {
   bool pen_down = false;
   ScreenPoint last;
   for (std::size_t i = 0; i + 1 < glyph.size();) {
@@ -149,7 +149,7 @@ void draw_glyph(Image& image, ScreenPoint at, std::string_view glyph, double uni
       continue;
     }
     const ScreenPoint next{at.x + unit * double(glyph[i] - '0'), at.y - unit * unit_y(glyph[i + 1])};
-    if (pen_down) draw_stroke(image, last, next, kStroke * unit, colour);
+    if (pen_down) draw_stroke(image, last, next, width, colour);
     last = next;
     pen_down = true;
     i += 2;
@@ -186,10 +186,10 @@ double text_width(std::string_view text, double size) {
   return width * size / kUnits;
 }
 
-void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour) {
+void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour, double bold) {
   const double unit = size / kUnits;
   for (const char c : text) {
-    draw_glyph(image, at, glyph_of(c), unit, colour);
+    draw_glyph(image, at, glyph_of(c), unit, bold * kStroke * unit, colour);
     at.x += unit * (glyph_width(glyph_of(c)) + kGap);
   }
 }

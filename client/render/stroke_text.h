@@ -14,7 +14,7 @@ void draw_stroke(Image& image, ScreenPoint from, ScreenPoint to, double width, R
 double text_width(std::string_view text, double size);
 
 /// Draws text with its baseline starting at `at`, in a stroke font of our own (printable ASCII; other
-/// characters become a small box).
-void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour);
+/// characters become a small box). @param bold times as thick strokes as usual.
+void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour, double bold = 1);
 
 }  // namespace affskel::client

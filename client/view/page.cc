@@ -222,7 +222,7 @@ ordered_json warnings_of(const ViewModel& model) {
   if (model.job.id().empty()) return warnings;
   for (const Notice& warning : skeleton_warnings(model.job.prepared(), model.quality))
     warnings.push_back(warning.message);
-  if (!model.quality.advice().empty()) warnings.push_back(model.quality.advice());
+  if (!model.quality.advice().empty()) warnings.push_back("the skeleton: " + model.quality.advice());
   return warnings;
 }
 
@@ -248,7 +248,7 @@ ordered_json facts_of(const ViewModel& model, const Box& box, const Scale& scale
           {"frame", frame_word(model.job.params().frame())},
           {"threshold", model.threshold},
           {"lowestThreshold", model.selection.lowest_threshold},
-          {"triangles", model.mesh.triangles.size()},
+          {"triangles", prepared.triangles() > 0 ? prepared.triangles() : model.mesh.triangles.size()},
           {"points", prepared.points()},
           {"pointsHere", model.points.size()},
           {"directions", prepared.directions()},

@@ -65,7 +65,7 @@ class WithPage(unittest.TestCase):
 
     def leave(self):
         """Lets go of buttons and keys, and has the pointer where the page has nothing to tell."""
-        actions = ActionBuilder(self.driver)
+        actions = ActionBuilder(self.driver, duration=0)  # else the pointer takes a quarter of a second
         actions.clear_actions()
         actions.pointer_action.move_to_location(0, 0)
         actions.perform()

@@ -63,7 +63,7 @@ class Visitor:
             with contextlib.suppress(StaleElementReferenceException):
                 return condition()
         try:
-            return WebDriverWait(self.driver, PATIENCE, 0.02).until(tried, message)
+            return WebDriverWait(self.driver, PATIENCE, 0.05).until(tried, message)
         except TimeoutException as ended:
             ended.msg = f"{message}: the page says:\n{self.text()}"
             raise
@@ -174,31 +174,36 @@ class Visitor:
                 file.write(base64.b64decode(shot["data"]))
 
 
-@contextlib.contextmanager
-def visitor(width, height, phone=False, dark=False):
-    """A visitor with a browser of his own."""
-    with browser_of_visitors(width, height, phone, dark) as driver, new_visitor(driver) as page:
-        yield page
+# The page waits before it asks again, and after a key for the next one: no test needs to wait as long.
+HURRY = "{ const wait = setTimeout; window.setTimeout = (call, pause) => wait(call, pause / 8); }"
 
 
-@contextlib.contextmanager
-def browser_of_visitors(width, height, phone=False, dark=False):
-    """A browser for one visitor after the other."""
-    with chromium(width, height, phone=phone) as driver:
+class Browsers:
+    """Those that no visitor has are kept for the next: starting one takes seconds."""
+
+    def __init__(self):
+        self.idle = {}
+        self.running = contextlib.ExitStack()
+
+    def start(self, width, height, phone=False, dark=False):
+        driver = self.running.enter_context(chromium(width, height, phone=phone))
+        driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": HURRY})
         if dark:
             features = [{"name": "prefers-color-scheme", "value": "dark"}]
             driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-        yield driver
+        return driver
 
-
-@contextlib.contextmanager
-def new_visitor(driver):
-    """One whom no service knows, and of whose predecessor nothing is left."""
-    with tempfile.TemporaryDirectory(prefix="affskel-downloads-") as downloads:
-        driver.get("about:blank")  # nothing asks a service that has gone
-        driver.execute_cdp_cmd("Network.clearBrowserCookies", {})
-        driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": downloads})
-        page = Visitor(driver, downloads)
-        page.errors()
-        page.asked()
-        yield page
+    @contextlib.contextmanager
+    def visitor(self, **window):
+        """One whom no service knows, and of whose predecessor nothing is left."""
+        idle = self.idle.setdefault(tuple(window.items()), [])
+        driver = idle.pop() if idle else self.start(**window)
+        with tempfile.TemporaryDirectory(prefix="affskel-downloads-") as downloads:
+            driver.execute_cdp_cmd("Network.clearBrowserCookies", {})
+            driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": downloads})
+            page = Visitor(driver, downloads)
+            page.errors()
+            page.asked()
+            yield page
+            driver.get("about:blank")  # nothing asks a service that has gone
+        idle.append(driver)

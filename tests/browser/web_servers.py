@@ -17,7 +17,8 @@ class Bench:
         self.directory = tempfile.TemporaryDirectory(prefix="affskel-web-", ignore_cleanup_errors=True)
         self.environment = dict(os.environ, AFFSKEL_HOME=self.path("home"), AFFSKEL_SERVER="",
                                 XDG_CONFIG_HOME=self.path("config"))
-        self.run("make", "body", "--triangles", "5000", "-o", self.path("body.off"))
+        for name, triangles in [("body.off", "500"), ("large.off", "5000")]:
+            self.run("make", "body", "--triangles", triangles, "-o", self.path(name))
         self.run("make", "box", "--size", "100,200,300", "-o", self.path("box.off"))
         with open(self.path("box.off"), encoding="ascii") as whole, \
              open(self.path("open.off"), "w", encoding="ascii") as broken:

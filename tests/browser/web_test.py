@@ -16,7 +16,7 @@ if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM
 
 from selenium.webdriver.common.keys import Keys
 
-from web_page import Service, browser_of_visitors, new_visitor, visitor
+from web_page import Browsers, Service
 from web_servers import Bench, Lab
 
 CLIENT, SERVER = sys.argv[1:3]
@@ -25,26 +25,20 @@ PHONE = dict(width=390, height=780, phone=True)
 
 
 def setUpModule():
-    global bench
+    global bench, browsers
     bench = Bench(CLIENT)
-
-
-def tearDownModule():
-    bench.close()
+    unittest.addModuleCleanup(bench.close)
+    browsers = Browsers()
+    unittest.addModuleCleanup(browsers.running.close)
 
 
 class OnThePage(unittest.TestCase):
     window = DESKTOP
-    dark = False
-
-    @classmethod
-    def setUpClass(cls):
-        cls.driver = cls.enterClassContext(browser_of_visitors(dark=cls.dark, **cls.window))
 
     def setUp(self):
         self.service = Service(CLIENT, bench.environment)
         self.addCleanup(self.stop)
-        self.page = self.enterContext(new_visitor(self.driver))
+        self.page = self.enterContext(browsers.visitor(**self.window))
         self.page.open(self.service.address)
         self.page.heading("Jobs")
 
@@ -72,7 +66,7 @@ class Desktop(OnThePage):
         page.screenshot("desktop-1-jobs")
         page.shown("a.button[href='#new']").click()
         page.heading("New job")
-        self.choose("body.off")
+        self.choose("large.off")
         page.picture_is_drawn("#found img")
         found = page.shown("#found").text
         self.assertIn("5,000", found)
@@ -89,7 +83,7 @@ class Desktop(OnThePage):
         page.wait(lambda: "about" not in page.find("#lattice").text)
         self.assertEqual(page.find("#submit").rect, place)
         spacing = float(page.find("#spacing").get_attribute("value"))
-        volume = json.loads(bench.run("--json", "inspect", bench.path("body.off")))["volume"]
+        volume = json.loads(bench.run("--json", "inspect", bench.path("large.off")))["volume"]
         self.assertAlmostEqual(volume / spacing ** 3 / 20000, 1, delta=0.1)
         page.screenshot("desktop-2-new")
         page.type("#spacing", 2 * spacing)
@@ -401,7 +395,7 @@ class Desktop(OnThePage):
 
     def test_several_jobs_are_cancelled_and_tell_the_time_left(self):
         page = self.page
-        ids = [bench.run("submit", bench.path("body.off"), "--points", str(3000000 + n), "--name", f"long {n}").strip() for n in range(2)]
+        ids = [bench.run("submit", bench.path("large.off"), "--points", str(3000000 + n), "--name", f"long {n}").strip() for n in range(2)]
         page.wait(lambda: all(page.all(f"#job-{job}") for job in ids))
         page.wait(lambda: any("left" in e.text and "per second" in e.text for e in page.all(".job .numbers")))
         for job in ids:
@@ -421,7 +415,10 @@ class Desktop(OnThePage):
         for left in ("skeleton in", "resume", "Download", "About this job", "Trying again"):
             self.assertNotIn(left, page.text())
         page.screenshot("desktop-17-deleted")
-        self.assertEqual([e for e in page.errors() if "404" not in e], [])
+        page.script("location.hash = '#job/noid'")
+        page.wait(lambda: "There is no such job" in page.text())
+        self.assertNotIn("Trying again", page.text())
+        self.assertEqual([e for e in page.errors() if "404" not in e and "/api/jobs/noid " not in e], [])
 
     def test_numbers_are_taken_as_they_are_typed(self):
         page = self.page
@@ -557,7 +554,7 @@ class Desktop(OnThePage):
 
     def test_cancels_and_resumes(self):
         # A job that no worker gets to the end of by itself.
-        job = bench.run("submit", bench.path("body.off"), "--points", "3000000", "--name", "long").strip()
+        job = bench.run("submit", bench.path("large.off"), "--points", "3000000", "--name", "long").strip()
         self.page.shown(f"#job-{job} a").click()
         self.page.heading("long")
         self.page.wait(lambda: self.page.shown(".badge").text == "running")
@@ -580,7 +577,7 @@ class Desktop(OnThePage):
         self.page.screenshot("desktop-7-server")
 
     def test_the_address_opens_the_page_once(self):
-        other = self.enterContext(visitor(**DESKTOP))
+        other = self.enterContext(browsers.visitor(**DESKTOP))
         other.open(self.service.address)
         other.heading("This page is locked")
         self.assertIn("has been used before", other.text())
@@ -601,7 +598,7 @@ class SigningIn(unittest.TestCase):
         self.addCleanup(lambda: self.assertEqual(self.lab.close(), 0))
 
     def visit(self, **window):
-        page = self.enterContext(visitor(**(window or DESKTOP)))
+        page = self.enterContext(browsers.visitor(**(window or DESKTOP)))
         page.open(self.lab.service.address)
         page.heading("Sign in")
         return page
@@ -733,8 +730,7 @@ class ByKeyboardAlone(OnThePage):
 
 
 class Phone(OnThePage):
-    window = PHONE
-    dark = True
+    window = dict(PHONE, dark=True)
 
     def assert_fits(self):
         self.assertEqual(self.page.script("return innerWidth"), 390)

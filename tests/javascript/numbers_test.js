@@ -50,8 +50,8 @@ test('one or many', () => {
   assert.equal(counted(1200, 'match', 'matches'), '1,200 matches');
 });
 
-test('measures have four digits', () => {
-  expectAll(measure, [[0, '0'], [1234.56, '1,235'], [0.00123456, '0.001235'], [1e-4, '1.000e-4'], [-2.5e9, '-2.500e9']]);
+test('measures have four digits, and all before the point', () => {
+  expectAll(measure, [[0, '0'], [12.3456, '12.35'], [1234.56, '1,235'], [16321.4, '16,321'], [0.00123456, '0.001235'], [1e-4, '1.000e-4'], [-2.5e9, '-2.500e9']]);
 });
 
 test('what is edited has six digits and no separators', () => {

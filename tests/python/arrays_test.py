@@ -240,7 +240,7 @@ class Meshes(unittest.TestCase):
         for mesh, words in (
             ((bad, FACES), "vertex 2 is not finite"),
             ((good[:, :2], FACES), r"vertices have the shape \(4, 2\)"),
-            ((good, [[0, 1, 2], [0, 1, 4]]), r"face 1 has the vertices \[0, 1, 4\]; there are 4"),
+            ((good, [[0, 1, 2], [0, 1, 4]]), r"face 1 has the vertices \[0, 1, 4\]; there are 4, counted from 0"),
             ((good, np.array([[0, 1, 2], [0, 1, -1]])), "face 1 has the vertices"),
             ((good, [[0, 1, 2], [0, 1]]), "face 1 has the shape"),
             ((good, np.array(FACES, float)), "faces must be whole numbers, not float64"),
@@ -248,7 +248,8 @@ class Meshes(unittest.TestCase):
             ((["a", "b"], FACES), "vertices are no numbers"),
             (modules.SimpleNamespace(points=good, faces=np.array([3, 0, 1, 2, 4, 0])), r"faces\[4\] = 4 is no number"),
             (modules.SimpleNamespace(points=good, faces=np.array([2, 0, 1])), r"faces\[0\] = 2 is no number"),
-            (7, "a int is no mesh"),
+            (7, "^int is no mesh"),
+            ((good, np.zeros((0, 3), dtype=int)), "has no faces"),
         ):
             with self.subTest(words), self.assertRaisesRegex(affskel.BadInputError, words):
                 _meshes.mesh_of(mesh)

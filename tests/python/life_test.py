@@ -266,7 +266,7 @@ class Errors(WithDirectory):
             client.submit(b"")
         with self.assertRaisesRegex(affskel.BadInputError, "vertex 1 is not finite"):
             client.submit(CUBE.encode().replace(b"1 0 0", b"1 nan 0", 1))
-        wrong = "spacing 200 .* measures 1 x 1 x 1 units, a person in metres; a spacing of 0.022 gives 100000"
+        wrong = "spacing 200 .* measures 1 x 1 x 1 units, the size of a person in metres; a spacing of 0.022 gives 100000"
         with self.assertRaisesRegex(affskel.BadInputError, wrong) as failure:
             client.submit((cube, faces), spacing=200)
         with self.assertRaisesRegex(affskel.LimitError, "gives about 1e.12 sample points, and at most 2147483648"):

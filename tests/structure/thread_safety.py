@@ -2,7 +2,7 @@
 
 Marked members are private, so the files that can touch them are those that mark some themselves, that include a
 header which does, or that see one of their own folder.  These are looked at as compile_commands.json says they are
-compiled, those together that are compiled as one file; files with coroutines are left out.
+compiled, a few of a folder at once, and each alone where these have faults; files with coroutines are left out.
 
 Usage: thread_safety.py PROJECT BUILD CLANG++    Exit code 1, and Clang's words, for each that breaks a rule.
 """
@@ -19,6 +19,7 @@ from include_arrows import INCLUDE, INCLUDE_DIRS  # noqa: E402
 
 TOPS = ("proto/", "server/", "worker/", "client/")
 MARK = "ABSL_GUARDED_BY("
+BATCH = 12  # files
 
 
 def included_files(project, path):
@@ -94,20 +95,24 @@ def analyse(project, build, clang):
         return ended.stderr if ended.returncode != 0 else ""
 
     def words_by_path(entry, paths):
-        together = words_about(entry, paths)
-        if not together or len(paths) == 1:
-            return dict.fromkeys(paths, together)
-        alone = {path: words_about(entry, [path]) for path in paths}
-        return alone if any(alone.values()) else dict.fromkeys(paths, together)
+        if not words_about(entry, paths):
+            return dict.fromkeys(paths, "")
+        return {path: words_about(entry, [path]) for path in paths}
 
     chosen = {}  # a source of several programs is looked at once
     for entry in entries:
-        paths = tuple(path for path in sources_of(project, entry) if is_chosen(path))
-        if paths:
-            chosen.setdefault(paths, entry)
+        for path in sources_of(project, entry):
+            if path not in chosen and is_chosen(path):
+                chosen[path] = entry
+    alike = {}  # those of a folder that are compiled alike: what they include is read once for a few
+    for path, entry in chosen.items():
+        key = os.path.dirname(path), entry["directory"], *analysis(entry, clang)
+        alike.setdefault(key, (entry, []))[1].append(path)
+    batches = [(entry, paths[first:first + BATCH])
+               for entry, paths in alike.values() for first in range(0, len(paths), BATCH)]
     said = {}
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for words in pool.map(words_by_path, chosen.values(), chosen.keys()):
+        for words in pool.map(words_by_path, *zip(*batches)):
             said.update(words)
     return said
 

@@ -128,7 +128,7 @@ def require_points(mesh: Polygons, spacing: float, file: str = "") -> None:
                          f"{MAX_POINTS} are taken; {(volume / MAX_POINTS) ** (1 / 3):.3g} is within that", file=file)
     if spacing <= longest / 2 and volume >= LEAST_POINTS * spacing ** 3:
         return
-    unit = "".join(f", a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)
+    unit = "".join(f", the size of a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)
     better = f"; a spacing of {(volume / 1e5) ** (1 / 3):.2g} gives 100000 points" if volume > 0 else ""
     raise BadInputError(f"the spacing {spacing:.6g} leaves no room for sample points: the mesh measures "
                         + " x ".join(f"{side:.3g}" for side in size) + f" units{unit}{better}", file=file)

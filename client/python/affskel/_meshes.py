@@ -62,7 +62,7 @@ def _arrays_of(mesh: Any) -> Tuple[Any, List[npt.NDArray[np.int64]]]:
         return mesh.vertices, _face_rows(mesh.faces)
     if hasattr(mesh, "points") and hasattr(mesh, "faces"):
         return mesh.points, _padded_faces(mesh.faces)
-    raise BadInputError(f"a {type(mesh).__name__} is no mesh: expected a path, (vertices, faces), or a mesh of "
+    raise BadInputError(f"{type(mesh).__name__} is no mesh: expected a path, (vertices, faces), or a mesh of "
                         "trimesh, pyvista or VTK")
 
 
@@ -161,8 +161,11 @@ def off_text(vertices: Any, faces: Sequence[npt.NDArray[np.int64]]) -> bytes:
         outside = ((group < 0) | (group >= len(points))).any(axis=1)
         if outside.any():
             row = int(np.argmax(outside))
-            raise BadInputError(f"face {first + row} has the vertices {group[row].tolist()}; there are {len(points)}")
+            raise BadInputError(f"face {first + row} has the vertices {group[row].tolist()}; there are {len(points)}, "
+                                "counted from 0")
         first += len(group)
+    if first == 0:
+        raise BadInputError("the mesh has no faces")
     lines = ["OFF", f"{len(points)} {first} 0"]
     lines += [f"{x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
     for group in faces:

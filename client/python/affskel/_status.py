@@ -74,9 +74,10 @@ class Status:
 
     def __repr__(self) -> str:
         done = "" if self.is_final else f", {self.share_done:.0%}"
+        skeleton = f", skeleton of {self.skeleton_points}" if self.state == "done" else ""
         reason = f": {self.reason}" if self.reason else ""
-        return (f"<affskel.Status of {self.id[:12]} {self.name!r}, {self.state}{done}, {self.points} points, "
-                f"skeleton of {self.skeleton_points}{reason}>")
+        return (f"<affskel.Status of {self.id[:12]} {self.name!r}, {self.state}{done}, {self.points} points"
+                f"{skeleton}{reason}>")
 
     @property
     def is_final(self) -> bool:

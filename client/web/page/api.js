@@ -12,6 +12,12 @@ export class ApiError extends Error {
   }
 }
 
+/**
+ * Whether what was asked for does not come back: it was deleted meanwhile, was never there, or its id is none.
+ * @param {any} error
+ */
+export const isGone = (error) => error?.status === 404 || error?.status === 400;
+
 const kNoAnswer = 'The page gets no answer. Has affskel-client web been ended, or is the network down?';
 
 function errorOf(status, text) {

@@ -1,5 +1,5 @@
 // One job: its progress, what it is, its picture and its files.
-import { call, jobPath } from './api.js';
+import { call, isGone, jobPath } from './api.js';
 import { confirmed, showInteractive } from './dialogs.js';
 import { Downloads } from './downloads.js';
 import { announce, background, button, facts, h, numberField, setText, whenThemeChanges } from './elements.js';
@@ -125,7 +125,7 @@ export class JobView {
     try {
       this.show(await call('GET', jobPath(this.id)));
     } catch (error) {
-      if (error.status === 404) this.forget();
+      if (isGone(error)) this.forget();
       throw error;
     }
     return isActive(this.job);

@@ -153,7 +153,8 @@ export class JobList {
       Object.entries(kOrders).map(([word, { text }]) => h('option', { value: word }, text)),
     );
     this.owner = h('select', { id: 'owner', 'aria-label': 'Owner', hidden: true }, h('option', { value: '' }, 'of anybody'));
-    for (const control of [this.search, this.state, this.owner, this.order]) control.addEventListener('input', () => this.arrange());
+    this.search.addEventListener('input', () => this.arrange());
+    for (const control of [this.state, this.owner, this.order]) control.addEventListener('change', () => this.arrange());
     this.selected = h('span', { class: 'small', role: 'status' });
     this.together = h(
       'div',

@@ -1,4 +1,5 @@
 // The page: what is shown follows the address behind '#'.
+import { isGone } from './api.js';
 import { showProblem } from './dialogs.js';
 import { byId, button } from './elements.js';
 import { JobView } from './job.js';
@@ -56,7 +57,7 @@ function showView(moved) {
       () => ask.call(view),
       (error) => {
         if (error?.status === 401) return;
-        const gone = error?.status === 404; // deleted meanwhile, or never there: it does not come back
+        const gone = isGone(error);
         if (gone) poll.stop();
         showProblem(error && (gone ? error.message : `${error.message} Trying again …`));
       },

@@ -197,7 +197,7 @@ export class NewJob {
           },
         },
         h('h2', {}, 'An image of voxels'),
-        field('isovalue', 'Value at the surface of the solid', value),
+        h('div', { class: 'fields' }, field('isovalue', 'Value at the surface of the solid', value)),
         h('div', { class: 'row end' }, h('button', { type: 'submit', class: 'primary', id: 'make-surface' }, 'Make its surface')),
       ),
     );

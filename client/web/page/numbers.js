@@ -20,13 +20,13 @@ export const count = (n) => whole.format(n);
 export const counted = (n, one, many = `${one}s`) => `${count(n)} ${n === 1 ? one : many}`;
 
 /**
- * A length, an area or a volume, to four digits.
+ * A length, an area or a volume, to four digits or to a whole number.
  * @param {number} value
  * @returns {string}
  */
 export function measure(value) {
   const size = Math.abs(value);
-  return size !== 0 && (size >= 1e9 || size < 1e-3) ? value.toExponential(3).replace('e+', 'e') : four.format(value);
+  return size !== 0 && (size >= 1e9 || size < 1e-3) ? value.toExponential(3).replace('e+', 'e') : (size < 1000 ? four : whole).format(value);
 }
 
 /**

@@ -8,7 +8,7 @@ import { session } from './session.js';
  */
 export const kArtefacts = {
   field: ['Field', 'the erosion level E, its normal and direction at every sample point'],
-  divergence: ['Divergence', 'H, which the threshold is applied to'],
+  divergence: ['Divergence', 'H: how much the optimal normals differ nearby; the published operators keep what has much'],
   skeleton: ['Skeleton', 'sheets and curves; .stl and .off have no place for curves, .csv and .xyz hold the vertices'],
   curve: ['Curve', 'a line through each limb; .json and .graphml: a graph, .swc: trees, .glb: joints of the mesh'],
   thickness: ['Thickness', 'of the body at every triangle: how far the skeleton is below it'],

@@ -308,6 +308,8 @@ TEST_F(ClientTest, MakeWritesShapes) {
   run({"make", "box", "--size", "3,2,1", "-o", "-"});
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), core::write_off(core::make_box(3, 2, 1)));
   EXPECT_EQ(run({"make", "torus", "--triangles", "7", "-o", dir_ / "t.off"}).exit_code, 2);
+  EXPECT_NE(run({"make", "torus", "--triangles", "1e3", "-o", dir_ / "t.off"}).err.find("a whole number"),
+            std::string::npos);
   EXPECT_EQ(run({"--json", "make", "box", "-o", "-"}).exit_code, 2);
 }
 
@@ -317,6 +319,10 @@ TEST_F(ClientTest, WrongUsageIsTwoAndJsonOnRequest) {
   const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "-1", "--json"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(json::parse(outcome.err).at("error").at("code"), "USAGE");
+  for (const char* spacing : {"5mm", "0.1%%", "100%"}) {
+    const std::string said = run({"submit", dir_ / "cube.off", "--spacing", spacing}).err;
+    EXPECT_NE(said.find("a number > 0 or a share below 100% as in 1%"), std::string::npos) << said;
+  }
 }
 
 TEST_F(ClientTest, HelpAndVersionGoToStandardOutput) {

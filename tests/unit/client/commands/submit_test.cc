@@ -50,9 +50,9 @@ TEST_F(ClientTest, SubmitAsksForTheInfimum) {
 TEST_F(ClientTest, SubmitRefusesASpacingThatLeavesNoPoints) {
   const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "1001"}, "unix:/nowhere/s");
   EXPECT_EQ(outcome.exit_code, 3);
-  for (const char* part :
-       {"cube.off: the spacing 1001 leaves no room", "2000 x 2000 x 2000 units, a person in millimetres",
-        "a spacing of 43 gives 100000 points"})
+  for (const char* part : {"cube.off: the spacing 1001 leaves no room",
+                           "2000 x 2000 x 2000 units, the size of a person in millimetres",
+                           "a spacing of 43 gives 100000 points"})
     EXPECT_NE(outcome.err.find(part), std::string::npos) << part << "\n" << outcome.err;
   EXPECT_EQ(outcome.err.find("directions"), std::string::npos) << outcome.err;
   EXPECT_EQ(run({"submit", dir_ / "cube.off", "--spacing", "1000"}, "unix:/nowhere/s").exit_code, 5);

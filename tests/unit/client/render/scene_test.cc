@@ -119,6 +119,29 @@ TEST(RenderScene, NamesThePartsThatAreSeen) {
   }
 }
 
+TEST(RenderScene, LabelsAreReadOnDarkPartsAndBackgrounds) {
+  RenderInput input;
+  input.mesh = core::make_box(100, 100, 100);
+  input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
+  input.painted.emplace();
+  input.painted->mesh = input.mesh;
+  const Rgb dark{0.1f, 0, 0.1f};
+  input.painted->colours.assign(input.mesh.triangles.size(), dark);
+  RenderOptions options;
+  options.background = {0, 0, 0};
+  options.cameras = {parse_camera("front")};
+  const auto light = [&] {
+    const Image image = render_scene(input, options);
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.at(x, y).g > 0.99f ? 1 : 0;
+    return count;
+  };
+  const int none = light();
+  input.painted->labels = {{{50, 50, 50}, "8", dark}};
+  EXPECT_GT(light() - none, 20) << "round its strokes";
+}
+
 // The largest rectangle of one colour, as a share of the picture.
 double largest_empty_share(const Image& image, Rgb background) {
   std::vector<int> above(std::size_t(image.width()) + 1, 0);  // empty pixels above and at a place of the row

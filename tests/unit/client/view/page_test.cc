@@ -236,6 +236,13 @@ TEST(Page, TwoModelsHaveOneScaleAndOneScaleOfColours) {
   EXPECT_THROW(view_page(input), std::logic_error);
 }
 
+TEST(Page, CountsTheTrianglesOfTheMeshThatWasSubmitted) {
+  ViewModel model = sample_model();
+  EXPECT_EQ(facts(view_page(page_of(model))).at("triangles"), model.mesh.triangles.size());
+  model.job.mutable_prepared()->set_triangles(8);  // before they were cut where parts meet
+  EXPECT_EQ(facts(view_page(page_of(model))).at("triangles"), 8);
+}
+
 TEST(Page, TellsWarningsAndPieces) {
   ViewModel model = sample_model();
   model.job.mutable_prepared()->set_points(2000);
@@ -255,7 +262,7 @@ TEST(Page, TellsWarningsAndPieces) {
   EXPECT_EQ(warnings[0], "faces were turned");
   EXPECT_NE(warnings[1].get<std::string>().find("coarse, 1999 points"), std::string::npos);
   EXPECT_NE(warnings[2].get<std::string>().find("in 13 pieces, the solid in 1"), std::string::npos);
-  EXPECT_EQ(warnings[3], "a lower threshold joins the pieces");
+  EXPECT_EQ(warnings[3], "the skeleton: a lower threshold joins the pieces");
   EXPECT_EQ(all.at("pieces"), json::array({json::array({"pieces", "13 (solid: 1)"}),
                                            json::array({"tunnels", "3 (solid: 2)"})}));
 }

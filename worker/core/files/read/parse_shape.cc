@@ -89,8 +89,8 @@ MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) 
     throw CoreError(
         CoreError::Code::kBadInput,
         "is an image of " + std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
-            std::to_string(image.size[2]) + " voxels with values from " + base::to_text(least) + " to " +
-            base::to_text(greatest) + "; the isovalue, which they have at the surface, must be given");
+            std::to_string(image.size[2]) + " voxels with values from " + base::rounded(least, 6) + " to " +
+            base::rounded(greatest, 6) + "; the isovalue, which they have at the surface, must be given");
   }
   Isosurface surface = isosurface(image, {.isovalue = *options.isovalue, .context = options.context});
   MeshFile file{"voxels", false, {}, {}};
