@@ -294,7 +294,7 @@ class GraphOfCurve {
     CurveBranch& branch = graph_.branches[which];
     branch.angle = std::numeric_limits<double>::quiet_NaN();
     const std::uint32_t other = beside(which, branch.vertices.front());
-    if (other == kNoBranch) return;
+    if (other == kNoBranch || branch.kind == BranchKind::kPoint) return;
     const CurveBranch& on = graph_.branches[other];
     const Vec3 way = direction(branch, false), rest = direction(on, on.from != branch.from);
     branch.angle = 180 / std::numbers::pi * plain_angle(norm(cross(way, rest)), dot(way, rest));

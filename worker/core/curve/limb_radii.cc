@@ -88,8 +88,10 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
   const auto lines = polylines(vertices, input.segments);
   const std::vector<std::uint32_t> ends = ends_of(vertices, lines);
   std::vector<double> radius(vertices, 0);
+  std::vector<char> in_line(vertices, 0);
   for (const auto& line : lines) {
     const std::size_t count = line.size();
+    for (const std::uint32_t v : line) in_line[v] = 1;
     std::vector<char> whole(count);
     const auto find_whole = [&](bool in_joints) {
       for (std::size_t n = 0; n < count; ++n) {
@@ -112,7 +114,7 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
     }
   }
   for (std::uint32_t v = 0; v < vertices; ++v)
-    if (ends[v] > 2 && input.share[v] > input.slice[v])
+    if (!in_line[v] || (ends[v] > 2 && input.share[v] > input.slice[v]))
       radius[v] = std::cbrt(0.75 / std::numbers::pi * input.volume * input.share[v]);
   return radius;
 }

@@ -12,8 +12,8 @@ struct LimbSlices {
   std::span<const Vec3> places;       ///< per vertex
   std::span<const Segment> segments;  ///< as for polylines()
   std::span<const double> slice;      ///< per vertex: of the volume, what is nearest to it
-  std::span<const double>
-      ball;  ///< per vertex: distance to the surface; a free end reaches so far beyond itself
+  /// Per vertex: distance to the surface; a free end reaches so far beyond itself.
+  std::span<const double> ball;
   double volume = 0;
 };
 
@@ -36,7 +36,7 @@ struct LimbRadiiInput {
 /// reaches into other limbs, or is clearly more than the tube, or others have what is nearest to the vertex, a limb is as thick
 /// as where it comes out; a line that nowhere does is as thick as its tube.  The optimal section tells no thickness: all planes
 /// through a place on the axis of a tube cut off as much, however they are tilted.
-/// @return per vertex; 0 for one without a line, and for a body that limbs hang on (see limb_hubs()) that of a ball as large.
+/// @return per vertex; for one without a line, and for a body that limbs hang on (see limb_hubs()), that of a ball as large.
 std::vector<double> limb_radii(const LimbRadiiInput& input);
 
 }  // namespace affskel::core

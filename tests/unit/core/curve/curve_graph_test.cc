@@ -135,6 +135,7 @@ TEST(CurveGraph, ABodyThatLimbsHangOnIsAPoint) {
     ASSERT_EQ(graph.branches.size(), 4U);
     EXPECT_EQ(graph.branches[0].kind, BranchKind::kPoint);
     EXPECT_EQ(graph.branches[0].share, 0.4);
+    EXPECT_TRUE(std::isnan(graph.branches[0].angle));
     EXPECT_EQ(graph.nodes[graph.branches[0].from], middle);
     EXPECT_EQ(graph.branches[1].share, 0.3);
     EXPECT_NEAR(graph.branches[1].angle, 180, 1e-9) << "to the next limb, not to the point";

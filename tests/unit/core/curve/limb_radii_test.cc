@@ -45,6 +45,12 @@ TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
   EXPECT_NEAR(radius[0], (2 + 1 + 1) / 3., 1e-12) << "of its lines the mean";
 }
 
+TEST(LimbRadii, WithoutALineIsThatOfTheBall) {
+  const std::vector<double> one = {1}, none = {0};
+  const std::vector<char> free = {0};
+  EXPECT_NEAR(limb_radii({{}, one, one, none, none, free, 4. / 3 * pi * 8})[0], 2, 1e-12);
+}
+
 TEST(LimbRadii, InAJointAreThoseOfWhereTheLimbComesOut) {
   ThreeLimbs limbs;
   for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) {
