@@ -85,23 +85,21 @@ class PieceFinder::Work {
       if (beside != vertex) return Joins::unknown;
       beside = other;
     }
+    const auto crossings = in_.crossings.at(vertex);
     // The plane passes both when it passes the one.
-    if (beside != vertex && !only_touches(beside, vertex)) return Joins::unknown;
+    if (beside != vertex && !(crossings.empty() && only_touches(beside, vertex))) return Joins::unknown;
     std::array<bool, 2> passes{};
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
       bool& passed = passes[joined_[l]];
       passed = passed || passes_at(loops_[l], vertex) || (beside != vertex && passes_at(loops_[l], beside));
     }
-    for (const CrossingPairs::Crossing& crossing : in_.crossings.at(vertex)) {
-      if (beside != vertex) return Joins::unknown;
-      if (uses(in_.mesh.triangles[crossing.other], vertex) || corner_below(crossing.triangle) != kNone)
-        continue;
+    for (const CrossingPairs::Crossing& crossing : crossings) {
+      const Triangle& other = in_.mesh.triangles[crossing.other];
+      if (uses(other, vertex) || corner_below(crossing.triangle) != kNone) continue;
       const std::uint32_t corner = corner_below(crossing.other);
       if (corner != kNone) {
-        passes[own_loops_.empty() ? 0 : classes_.find(member_of(corner)) == classes_.find(own_loops_[0])] =
-            true;
-      } else if (std::ranges::any_of(in_.mesh.triangles[crossing.other],
-                                     [&](auto v) { return touches(v); })) {
+        passes[holds(corner) ? 1 : 0] = true;
+      } else if (std::ranges::any_of(other, [&](std::uint32_t v) { return touches(v); })) {
         return Joins::unknown;
       }
     }

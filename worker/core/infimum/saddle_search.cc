@@ -20,7 +20,8 @@ SaddleSearch::SaddleSearch(const PieceInput& input)
     : in_(input),
       furthest_(
           kFurthestTilt *
-          std::sqrt(kTriangles / std::max(kTriangles, static_cast<double>(input.mesh.triangles.size())))) {}
+          std::sqrt(kTriangles / std::max(kTriangles, static_cast<double>(input.mesh.triangles.size())))),
+      seen_by_(input.crossings.empty() ? 0 : input.mesh.points.size(), 0) {}
 
 template <class Meets, class Visit>
 void SaddleSearch::visit_vertices(Meets meets, Visit visit) {
@@ -167,7 +168,6 @@ bool SaddleSearch::are_near_below(std::span<const std::uint32_t> vertices, const
     std::fill(seen_by_.begin(), seen_by_.end(), 0);
     look_ = 1;
   }
-  seen_by_.resize(in_.mesh.points.size(), 0);
   std::size_t looks = 0;
   const auto see = [&](std::uint32_t v) {
     if (++looks > kMostLooks || seen_by_[v] == look_ || dot(d, from_x(v)) >= -kLevel) return;

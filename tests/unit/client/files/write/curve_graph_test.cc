@@ -44,7 +44,7 @@ TEST(CurveGraph, HasLinesAsBranchesAndLonePlacesAsNodes) {
   const core::CurveBranch& first = graph.branches[0];
   EXPECT_EQ(first.vertices, (std::vector<std::uint32_t>{2, 1, 0}));
   EXPECT_EQ(first.length, 2);
-  EXPECT_EQ(first.mean_radius, 2);  // 1.5 and 2.5
+  EXPECT_NEAR(first.mean_radius, 5. / 3, 1e-12) << "of lengths 2 and 1, without the joint";
   EXPECT_NEAR(first.share, 0.5, 1e-12);
   double sum = 0;
   for (const core::CurveBranch& branch : graph.branches) sum += branch.share;
