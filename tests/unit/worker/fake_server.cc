@@ -132,7 +132,7 @@ grpc::Status FakeServer::RenewLease(grpc::ServerContext*, const v1::RenewLeaseRe
                                     v1::ReportResponse* response) {
   const grpc::Status status = begin("RenewLease");
   const std::lock_guard<std::mutex> guard(mutex_);
-  response->set_cancelled(std::exchange(cancel_next_renewal_, false));
+  if (!hold_next_) response->set_cancelled(std::exchange(cancel_next_renewal_, false));
   return status;
 }
 

@@ -33,7 +33,7 @@ class FakeServer final : public v1::WorkerService::Service {
   void fail_next(const std::string& method, const grpc::Status& status, int times = 1);
   /// The next FetchInput goes on, without any bytes, until the worker ends the call.
   void hold_next_fetch();
-  /// The next RenewLease says that the task was cancelled.
+  /// The next RenewLease says that the task was cancelled; with a fetch to be held, the next once that is.
   void cancel_next_renewal();
   /// The next FetchInput flips a byte on the way.
   void damage_next_fetch();
