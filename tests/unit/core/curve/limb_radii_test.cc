@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -13,6 +14,8 @@ namespace affskel::core {
 namespace {
 
 using std::numbers::pi;
+
+constexpr std::uint32_t kFirstOfThin = 21, kWide = 5;  // vertices of the second line: the first, and how many
 
 // Three lines of 20 vertices from a joint, as thick as 2, 1 and 1; all of them have their slices, the joint has nothing.
 struct ThreeLimbs : DrawnLines {
@@ -31,12 +34,12 @@ struct ThreeLimbs : DrawnLines {
     tube = ball;
     in_joint.assign(places.size(), 0);
   }
+  // Sections of the second line's first vertices.
+  void widen(double radius) { std::fill_n(area.begin() + kFirstOfThin, kWide, pi * radius * radius); }
   std::vector<double> radii() const {
     return limb_radii({segments, share, slice, tube, area, in_joint, 100});
   }
 };
-
-constexpr std::uint32_t kFirstOfThin = 21;  // the first vertex of the second line
 
 TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
   const ThreeLimbs limbs;
@@ -53,10 +56,8 @@ TEST(LimbRadii, WithoutALineIsThatOfTheBall) {
 
 TEST(LimbRadii, InAJointAreThoseOfWhereTheLimbComesOut) {
   ThreeLimbs limbs;
-  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) {
-    limbs.area[v] = pi * 1.2 * 1.2;
-    limbs.in_joint[v] = 1;
-  }
+  limbs.widen(1.2);
+  std::fill_n(limbs.in_joint.begin() + kFirstOfThin, kWide, 1);
   EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
   limbs.in_joint.assign(limbs.places.size(), 0);
   EXPECT_GT(limbs.radii()[kFirstOfThin], 1.1) << "or such a limb";
@@ -64,16 +65,14 @@ TEST(LimbRadii, InAJointAreThoseOfWhereTheLimbComesOut) {
 
 TEST(LimbRadii, OfASectionThatIsOpenSayNothing) {
   ThreeLimbs limbs;
-  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) limbs.area[v] = pi * 4 * 4;
+  limbs.widen(4);
   EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
 }
 
 TEST(LimbRadii, InAThickerLimbAreThoseOfWhereALimbComesOut) {
   ThreeLimbs limbs;
-  for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 5; ++v) {
-    limbs.area[v] = pi * 1.2 * 1.2;
-    limbs.share[v] = 0;
-  }
+  limbs.widen(1.2);
+  std::fill_n(limbs.share.begin() + kFirstOfThin, kWide, 0);
   EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
 }
 
