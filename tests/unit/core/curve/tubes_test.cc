@@ -110,7 +110,7 @@ TEST(Tubes, AnArmHasItsLengthAngleAndVolume) {
     const double turn = angle * pi / 180;
     const std::vector<Tube> tubes = all_turned(
         {{{0, 0, -10}, {0, 0, 10}, 1}, {{0, 0, 0}, {8 * std::sin(turn), 0, 8 * std::cos(turn)}, 0.5}});
-    const Measured solid = measured(tube_mesh(tubes, 0.12));
+    const Measured solid = measured(tube_mesh(tubes, 0.16));
     ASSERT_EQ(solid.graph.branches.size(), 3U) << angle;
     const CurveBranch& arm = solid.to(tubes[1].to);
     const auto outside_trunk = [&](const Vec3& p) { return !tubes[0].contains(p); };
@@ -199,7 +199,7 @@ TEST(Tubes, ATreeHasTheVolumesOfItsBranches) {
                                               {{0, 0, 0}, {-6, 0, 3}, 0.7},
                                               {{6, 0, 3}, {7, 4, 7}, 0.45},
                                               {{6, 0, 3}, {10, -3, 4}, 0.45}});
-  const Measured tree = measured(tube_mesh(tubes, 0.12), 100'000);
+  const Measured tree = measured(tube_mesh(tubes, 0.16), 100'000);
   ASSERT_EQ(tree.graph.branches.size(), 5U);
   const std::vector<int> parent{-1, 0, 0, 1, 1}, sibling{-1, 2, 1, 4, 3};
   for (std::size_t n = 1; n < tubes.size(); ++n) {
@@ -228,7 +228,7 @@ TEST(Tubes, ARingHasTheVolumesOfItsArms) {
     for (const Tube& arm : arms) least = std::min(least, arm.distance(p));
     return least;
   };
-  Mesh mesh = mesh_zero_set(f, {{-9, -9, -1}, {9, 9, 1}, 0.1});
+  Mesh mesh = mesh_zero_set(f, {{-9, -9, -1}, {9, 9, 1}, 0.15});
   fair_onto(f, 1e-3, 3, mesh);
   const Measured solid = measured(mesh, 100'000);
   ASSERT_EQ(solid.graph.branches.size(), 6U);
@@ -271,7 +271,7 @@ TEST(Tubes, EqualArmsOfABallAreEqualAndItIsOnePart) {
     for (const Tube& arm : arms) least = std::min(least, arm.distance(p));
     return least;
   };
-  Mesh mesh = mesh_zero_set(f, {{-5.6, -5.6, -2.2}, {5.6, 5.6, 2.6}, 0.1});
+  Mesh mesh = mesh_zero_set(f, {{-5.6, -5.6, -2.2}, {5.6, 5.6, 2.6}, 0.15});
   fair_onto(f, 1e-3, 3, mesh);
   for (const double points : {25'000., 45'000., 90'000.}) {
     const Measured solid = measured(mesh, points);
