@@ -29,10 +29,11 @@ inline Rgb mix(Rgb a, Rgb b, float t) {
 Rgb viridis(float t);
 
 /// How many parts have a colour of their own.
-inline constexpr std::uint32_t kPartColours = 12;
+inline constexpr std::uint32_t kPartColours = 24;
 
 /// Colours of parts: the first kPartColours have one each, told from all others by people with any kind of colour
-/// blindness.  Further ones have one that none of the parts before them has which they touch, as far as there is one.
+/// blindness, the first twelve most easily.  Further ones have one that none of the parts before them has which they
+/// touch, as far as there is one.
 /// @param triangle_part per triangle of the surface: from 1 to `parts`.
 /// @return per part.
 std::vector<Rgb> part_colours(std::span<const core::Triangle> surface,

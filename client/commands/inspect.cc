@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -34,9 +36,8 @@ std::string measure_text(const ordered_json& measure) {
   return base::plain(measure.get<double>(), base::kMeasureDigits);
 }
 
-// A difference of coordinates has lost digits: 0.4, not 0.40000000000000036.
-std::string size_text(const ordered_json& size) {
-  return measure_text(size[0]) + " " + measure_text(size[1]) + " " + measure_text(size[2]);
+std::string box_text(const std::vector<double>& place, const std::vector<double>& size) {
+  return place_in_box(place, *std::max_element(size.begin(), size.end()));
 }
 
 // Each place a line of its own.
@@ -92,8 +93,8 @@ std::string facts_text(const ordered_json& facts, bool all) {
       }
     } else if (key == "volume") {
       text += key_line(key, measure_text(value));
-    } else if (key == "bbox_size") {
-      text += key_line(key, size_text(value));
+    } else if (key.starts_with("bbox_")) {
+      text += key_line(key, box_text(value, facts["bbox_size"]));
     } else {
       text += key_line(key, text_of(value));
     }

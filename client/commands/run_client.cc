@@ -80,7 +80,15 @@ std::string unknown_command(const std::string& word, const CLI::App& level) {
   std::vector<std::string> known;
   for (const CLI::App* child : level.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(child->get_name());
-  return with_nearest("no command '" + word + "'", word, known);
+  const std::string text = with_nearest("no command '" + word + "'", word, known);
+  if (text.ends_with('?') || level.get_parent() == nullptr) return text;
+  return text + "; " + level.get_name() + " knows " + CLI::detail::join(known, ", ");
+}
+
+// CLI11's "At Most 2 required but received 3".
+std::string plain_mismatch(const std::string& text) {
+  return CLI::detail::find_and_replace(CLI::detail::find_and_replace(text, "At Most", "at most"),
+                                       " required but received", ", not");
 }
 
 // What is wrong with the usage.  CLI11 leaves a misspelt word over: naming it, and what was probably meant,
@@ -98,7 +106,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
   const bool command_first = word != unknown.end() && (word == unknown.begin() || levels.size() > 1);
   if (no_command && command_first) return unknown_command(*word, *levels.back());
   if (option != unknown.end()) return unknown_option(*option, levels);
-  return no_command ? "no command was given" : end.what();
+  return no_command ? "no command was given" : plain_mismatch(end.what());
 }
 
 // --help and --version end the parse with a "success"; everything else is wrong usage.

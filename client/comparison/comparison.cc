@@ -67,10 +67,12 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Notic
     check_surface_size(shape.mesh(), path);
     try {
       const double distance = spread_points(shape, samples, result.points);
-      notices.push_back(note("SURFACE_SAMPLED",
-                             "a surface, compared by " + base::counted(result.points.size(), "point") +
-                                 " spread over it, about " + base::rounded(distance, 3) + " apart",
-                             path));
+      notices.push_back(
+          note("SURFACE_SAMPLED",
+               (shape.mesh().triangles.empty() ? "lines, compared by " : "a surface, compared by ") +
+                   base::counted(result.points.size(), "point") + " spread over it, about " +
+                   base::rounded(distance, 3) + " apart",
+               path));
     } catch (const core::CoreError& error) {
       throw error_from_core(error, path);
     }

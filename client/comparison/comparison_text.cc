@@ -66,7 +66,7 @@ std::string table_text(const Comparison& c) {
 
 std::string side_text(const ComparedPoints& side) {
   return side.file + " (" + base::counted(side.points.size(), "point") +
-         (side.from_surface ? " spread over its surface)" : ")");
+         (side.from_surface ? " spread over it)" : ")");
 }
 
 std::string there_and_back(const std::string& a_in_b, const std::string& b_in_a, const char* unit) {

@@ -47,12 +47,6 @@ std::string coloured_line(const std::string& key, const std::string& value, cons
   return coloured(line, colour) + "\n";
 }
 
-std::string triple(const google::protobuf::RepeatedField<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + base::to_text(value);
-  return text;
-}
-
 // By columns, as the message holds it.
 bool is_identity(const google::protobuf::RepeatedField<double>& frame) {
   for (int i = 0; i < 9; ++i) {
@@ -81,8 +75,11 @@ std::string prepared_details(const v1::PreparedSummary& p, bool colour) {
   if (p.frame_size() == 9 && !is_identity(p.frame())) {
     text += key_line("frame_vectors", frame_text(p.frame()));
   }
-  text += key_line("bbox_min", triple(p.bbox_min()));
-  text += key_line("bbox_max", triple(p.bbox_max()));
+  double size = 0;
+  for (int a = 0; a < std::min(p.bbox_min_size(), p.bbox_max_size()); ++a)
+    size = std::max(size, p.bbox_max(a) - p.bbox_min(a));
+  text += key_line("bbox_min", place_in_box({p.bbox_min().begin(), p.bbox_min().end()}, size));
+  text += key_line("bbox_max", place_in_box({p.bbox_max().begin(), p.bbox_max().end()}, size));
   for (const v1::MeshNote& note : p.notes()) {
     const bool warns = colour && note.severity() == "warning";
     text += coloured_line(note.severity(), note.code() + ": " + note.message(), warns ? "\033[33m" : "");

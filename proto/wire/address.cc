@@ -50,7 +50,7 @@ Address parse_address(std::string_view text) {
   }
   if (text.find("://") != std::string_view::npos) throw bad_address(text, "that is a URL");
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) throw bad_address(text, "no port");
+  if (colon == std::string_view::npos) throw bad_address(text, "no port behind a host and a colon");
   std::string_view host = text.substr(0, colon);
   if (host.size() >= 2 && host.front() == '[' && host.back() == ']') {
     host = host.substr(1, host.size() - 2);

@@ -498,6 +498,7 @@ class Desktop(OnThePage):
         self.page.shown("a.button[href='#new']").click()
         self.choose("ct.nrrd")
         self.page.type("#isovalue", 100)
+        self.assertEqual([e.text for e in self.page.all(".error") if e.is_displayed()], [], "it is no error")
         self.assertIn("values from 0 to 200", self.page.text())
         self.page.screenshot("desktop-14-voxels")
         self.page.shown("#make-surface").click()

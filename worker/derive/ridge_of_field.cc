@@ -35,13 +35,14 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   for (std::size_t n = 0; n < std::min<std::size_t>(more, basis_.loops.size()); ++n)
     set_place(field_.to_mesh(basis_.loops[n].place), basis_.loops[n].size * field_.lattice().spacing,
               *message.add_tunnels());
-  if (message.advice().empty())
-    set_advice(core::shallow_lattice_advice(field_.lattice(), basis_.radius), message);
   if (!message.advice().empty()) return;
   core::BettiNumbers kept = sheet.lattice;
   kept.components -= sheet.fragments;
   const core::BettiNumbers of_solid{message.solid_components(), solid, message.solid_cavities()};
   set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid), message);
+  if (!message.advice().empty()) return;
+  const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
+  set_advice(core::small_skeleton_advice(field_.lattice(), basis_.radius, vertices), message);
 }
 
 void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {

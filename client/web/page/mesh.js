@@ -170,15 +170,16 @@ export class NewJob {
         this.show(mesh, file, asked, await loadedPicture(mesh));
         return;
       }
-      this.complain(`${file.name} cannot be read: ${mesh.error}`);
-      if (kVoxels.test(file.name)) this.askIsovalue(file, asked);
+      const first = kVoxels.test(file.name) && asked.isovalue === undefined && mesh.error.includes('isovalue');
+      if (!first) this.complain(`${file.name} cannot be read: ${mesh.error}`);
+      if (kVoxels.test(file.name)) this.askIsovalue(file, asked, first ? `${file.name} ${mesh.error}.` : '');
     } catch (error) {
       this.complain(`${file.name} cannot be read: ${error.message}`);
     }
   }
 
   // Of an image of voxels.
-  askIsovalue(file, asked) {
+  askIsovalue(file, asked, why) {
     const value = numberField('isovalue', { inputmode: 'text', value: asked.isovalue });
     const take = () => {
       const isovalue = typed(value.value);
@@ -197,6 +198,7 @@ export class NewJob {
           },
         },
         h('h2', {}, 'An image of voxels'),
+        why && h('p', {}, why),
         h('div', { class: 'fields' }, field('isovalue', 'Value at the surface of the solid', value)),
         h('div', { class: 'row end' }, h('button', { type: 'submit', class: 'primary', id: 'make-surface' }, 'Make its surface')),
       ),
@@ -230,9 +232,12 @@ export class NewJob {
           h('h2', { tabindex: -1, id: 'found-heading' }, mesh.mesh ? 'This is the mesh' : 'This mesh bounds no solid'),
           button('Turn it', () => this.turn(file), { id: 'turn-mesh' }),
         ),
-        mesh.error && h('p', { class: 'error' }, mesh.error),
+        // What there is to do about defects is told by the buttons below.
+        mesh.error && defects.length === 0 && h('p', { class: 'error' }, mesh.error),
         h('ul', { class: 'notes' }, defects, notes),
+        f.flat && h('p', { class: 'error' }, 'It is flat: give it a thickness first, by Blender’s Solidify, say.'),
         !mesh.mesh &&
+          !f.flat &&
           h(
             'div',
             { class: 'row wrap' },

@@ -25,6 +25,12 @@ const Setting kMoreDirections{"directions", "triangles+sphere:2000"};
 // Fewer sample points than this are less than 10 across a cube.
 constexpr std::uint32_t kFewPoints = 1000;
 
+// Vertices of a skeleton that is hardly more than a point: a square's, or a quarter of the points across a cube.
+constexpr double kFewVertices = 4, kFewAcross = 0.25;
+
+// Spacings from the surface: a plate that is no deeper may have no sheet yet, though it would have one.
+constexpr float kShallow = 3;
+
 // Points of a sheet through a cube of so many points: their number to the power 2/3, rounded up.
 std::size_t points_of_a_sheet(std::size_t points) {
   const double square = static_cast<double>(points) * static_cast<double>(points);
@@ -141,12 +147,25 @@ Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_latt
                                        ": they are too few for something as thin as what differs.");
 }
 
-Advice shallow_lattice_advice(const Lattice& lattice, std::span<const float> radius) {
-  if (std::any_of(radius.begin(), radius.end(), [](float r) { return r > 1; })) return {};
-  return with_more_points(
-      lattice,
-      "all sample points lie next to the surface, two across the solid where it is thickest: "
-      "too few to tell its middle.");
+Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radius, std::size_t vertices) {
+  const float depth = radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
+  if (depth <= 1) {
+    return with_more_points(
+        lattice,
+        "all sample points lie next to the surface, two across the solid where it is thickest: "
+        "too few to tell its middle.");
+  }
+  const double across = std::cbrt(static_cast<double>(lattice.points));
+  if (static_cast<double>(vertices) > std::max(kFewVertices, kFewAcross * across)) return {};
+  const std::string point = "it is hardly more than a point, where E is greatest";
+  if (depth <= kShallow) {
+    return with_more_points(lattice, point + "; the sample points, " + base::rounded(2 * depth, 2) +
+                                         " across the solid where it is thickest, may be too few for more.");
+  }
+  return {
+      point +
+          ", as of a ball, a cube, or a bowl, whose wall is cut from outside only; more points would hardly show more.",
+      {}};
 }
 
 Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,

@@ -46,8 +46,9 @@ Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const 
 Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
                              const BettiNumbers& solid);
 
-/// That the lattice has nowhere more than two points across the solid, and how many points to try; else nothing.
-/// @param radius per sample point: see surface_distance().
-Advice shallow_lattice_advice(const Lattice& lattice, std::span<const float> radius);
+/// That the lattice has nowhere more than two points across the solid, or that the skeleton is hardly more than a point,
+/// and how many points to try where they may be too few; else nothing.
+/// @param radius per sample point: see surface_distance(). @param vertices of the skeleton, of a piece in the mean.
+Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radius, std::size_t vertices);
 
 }  // namespace affskel::core

@@ -22,7 +22,11 @@ using Axes = std::array<double, 3>;
 constexpr std::size_t kSamples = 20000;
 constexpr std::size_t kMirrored = 8;   // every eighth sample: each takes a search for the nearest triangle
 constexpr double kMirrorImage = 0.05;  // mean distance of the halves by the side across: bodies 0.004 to 0.03
-constexpr double kNoImage = 0.01;      // beyond twice that: animals front to back 0.03 at least
+constexpr double kRound =
+    0.015;  // from its image by a quarter turn: pentagons 0.008, arms spread as wide as high 0.036
+constexpr double kTurned = 0.07;   // a vase about its width: 0.087
+constexpr double kFlat = 0.5;      // of the surface at two ends: letters, gears 0.6; bodies, animals 0.14
+constexpr double kNoImage = 0.01;  // beyond twice that: animals front to back 0.03 at least
 constexpr double kClearlyLonger = 1.25;  // a body's height against its arms hanging obliquely: 1.5
 constexpr double kFeet = 0.05;           // of the height
 constexpr double kStands = 0.1;          // of the base: bodies 0.14 to 0.5, animals 0.2 to 0.5
@@ -46,9 +50,14 @@ class Shape {
     for (const Axes& place : places_)
       for (std::size_t a = 0; a < 3; ++a) middle_[a] += place[a] / double(places_.size());
     for (std::size_t a = 0; a < 3; ++a) unlikeness_[a] = unlike_mirror_image(a);
+    for (std::size_t a = 0; a < 3; ++a)
+      is_flat_[a] = side(a) <= std::min(side((a + 1) % 3), side((a + 2) % 3)) && share_of_ends(a) > kFlat;
   }
 
   AxisDirection up() const {
+    const double turned_y = unlike_turned(1), turned_z = unlike_turned(2);
+    if (turned_y < kRound && turned_z > kTurned) return {1, false};
+    if ((turned_z < kRound && turned_y > kTurned) || is_flat_[1] || is_flat_[2]) return {2, false};
     const bool across_y = is_across(1, 0) && is_across(1, 2), across_z = is_across(2, 0) && is_across(2, 1);
     const double on_z = across_z ? 0 : spread_of_feet(2), on_y = across_y ? 0 : spread_of_feet(1);
     if (on_y >= kStands && on_y > kStandsBetter * on_z) return {1, false};
@@ -58,10 +67,12 @@ class Shape {
 
   AxisDirection front(AxisDirection up) const {
     AxisDirection front = usual_front(up);
+    if (is_flat_[up.axis]) return front;
     const std::size_t other = 3 - up.axis - front.axis;
     const bool stands = side(up.axis) >= std::max(side(front.axis), side(other));
-    if (is_across(front.axis, other) ||
-        (!is_across(other, front.axis) && stands && side(front.axis) > kClearlyWider * side(other))) {
+    if (is_flat_[other] || (!is_flat_[front.axis] && (is_across(front.axis, other) ||
+                                                      (!is_across(other, front.axis) && stands &&
+                                                       side(front.axis) > kClearlyWider * side(other))))) {
       front = {other, false};
     }
     const double head = beside(up, 0.85, 1, front.axis) - middle_[front.axis];
@@ -82,16 +93,44 @@ class Shape {
   double unlike_mirror_image(std::size_t axis) const {
     double least = HUGE_VAL;
     for (const double mirror : {(box_.low[axis] + box_.high[axis]) / 2, middle_[axis]}) {
-      double sum = 0;
-      std::size_t count = 0;
-      for (std::size_t p = 0; p < places_.size(); p += kMirrored, ++count) {
-        Axes image = places_[p];
-        image[axis] = 2 * mirror - image[axis];
-        sum += distance_.nearest({image[0], image[1], image[2]});
-      }
-      least = std::min(least, sum / double(count) / side(axis));
+      const double distance = mean_distance([&](Axes& place) { place[axis] = 2 * mirror - place[axis]; });
+      least = std::min(least, distance / side(axis));
     }
     return least;
+  }
+
+  // The same of what a quarter turn makes of it.
+  double unlike_turned(std::size_t axis) const {
+    const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const double centre_a = (box_.low[a] + box_.high[a]) / 2, centre_b = (box_.low[b] + box_.high[b]) / 2;
+    const double distance = mean_distance([&](Axes& place) {
+      const double from_a = place[a] - centre_a;
+      place[a] = centre_a + (place[b] - centre_b);
+      place[b] = centre_b - from_a;
+    });
+    return distance / std::max(side(a), side(b));
+  }
+
+  // Of the images of places.
+  template <typename Map>
+  double mean_distance(const Map& map) const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < places_.size(); p += kMirrored, ++count) {
+      Axes image = places_[p];
+      map(image);
+      sum += distance_.nearest({image[0], image[1], image[2]});
+    }
+    return sum / double(count);
+  }
+
+  // How much of the surface lies at the two ends.
+  double share_of_ends(std::size_t axis) const {
+    const double end = kFeet * side(axis);
+    const auto count = std::count_if(places_.begin(), places_.end(), [&](const Axes& place) {
+      return place[axis] <= box_.low[axis] + end || place[axis] >= box_.high[axis] - end;
+    });
+    return double(count) / double(places_.size());
   }
 
   // Whether left and right lie along an axis rather than along another one.
@@ -131,6 +170,7 @@ class Shape {
   std::vector<Axes> places_;
   Box box_;
   Axes middle_{}, unlikeness_{};
+  std::array<bool, 3> is_flat_{};
 };
 
 // Empty where there is nothing to look at.

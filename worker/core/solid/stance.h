@@ -30,6 +30,8 @@ struct StanceOptions {
 };
 
 /// How a solid stands, as its shape tells.  No theorem, but what bodies, animals and busts have in common:
+/// - what a quarter turn about z or y maps to itself stands on that axis, as bowls and gears do; flat parts lie on z or,
+///   if thin along another axis, stand and face along it, as letters do that are read so.  Of all others:
 /// - left and right are mirror images, so that the axis across is neither up nor in front;
 /// - up is z or y, whichever it stands on better: its lowest twentieth lies on both sides of the middle and is spread
 ///   more widely; where neither is better, y if it is 1.25 times as long as the others;

@@ -29,7 +29,15 @@ TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
 TEST_F(ClientTest, AMisspeltCommandIsNamed) {
   EXPECT_NE(run({"statsu", "@last"}).err.find("no command 'statsu'"), std::string::npos);
   EXPECT_NE(run({"make", "cuboid", "-o", dir_ / "x.off"}).err.find("no command 'cuboid'"), std::string::npos);
+  EXPECT_NE(run({"make", "blob"}).err.find("make knows torus, sphere,"), std::string::npos);
   EXPECT_NE(run({}).err.find("no command was given"), std::string::npos);
+}
+
+TEST_F(ClientTest, SaysHowManyThereMayBe) {
+  const Outcome refused = run({"view", "@last", "@last", "@last", "-o", dir_ / "x.html"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("JOB: at most 2, not 3; see affskel-client view --help"), std::string::npos)
+      << refused.err;
 }
 
 TEST_F(ClientTest, AMeshWhereAJobIsWantedIsToldToBeSubmitted) {

@@ -193,11 +193,13 @@ TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
   EXPECT_FALSE(open.contains("mesh"));
   EXPECT_FALSE(open["facts"]["computable"]);
   EXPECT_EQ(open["facts"]["defects"][0]["code"], "open-edges");
+  EXPECT_TRUE(open["facts"]["flat"]) << "a triangle";
   EXPECT_TRUE(open.contains("picture"));
   const Answer turned = ask("POST", "/api/meshes/view?name=open.off", tests::read_file(dir_ / "open.off"));
   EXPECT_NE(ask("GET", turned.object()["href"]).body.find("open.off"), std::string::npos);
   core::Mesh cube = core::make_box(2000, 2000, 2000, 4);
   cube.triangles.pop_back();
+  EXPECT_FALSE(uploaded("o.off", core::write_off(cube))["facts"].contains("flat"));
   for (const char* how : {"auto", "fill", "wrap"}) {
     const json repaired =
         ask("POST", std::string("/api/meshes?name=o.off&repair=") + how, core::write_off(cube)).object();

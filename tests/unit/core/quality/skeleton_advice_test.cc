@@ -150,13 +150,26 @@ TEST(CoarseLatticeAdvice, NamesWhatDiffersAndMorePoints) {
   EXPECT_TRUE(is_plain(advice));
 }
 
-TEST(ShallowLatticeAdvice, IsForSolidsOfTwoPointsAcross) {
+TEST(SmallSkeletonAdvice, IsForSolidsOfTwoPointsAcross) {
   NormalBlock block({10, 10, 3}, 0.5);
-  const Advice advice = shallow_lattice_advice(block.lattice, std::vector<float>{0.5f, 0.5f});
+  const Advice advice = small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 0.5f}, 1000);
   EXPECT_TRUE(says(advice, "two across the solid")) << advice.text;
   EXPECT_TRUE(suggests(advice, "points", "10000"));
   EXPECT_TRUE(is_plain(advice));
-  EXPECT_TRUE(shallow_lattice_advice(block.lattice, std::vector<float>{0.5f, 1.5f, 0.5f}).text.empty());
+  EXPECT_TRUE(small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 1.5f, 0.5f}, 1000).text.empty());
+}
+
+TEST(SmallSkeletonAdvice, AsksForPointsOnlyWhereTheyAreFewAcross) {
+  NormalBlock block({20, 20, 20}, 0.5);
+  const Advice few = small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 1.25f}, 4);
+  EXPECT_TRUE(says(few, "hardly more than a point")) << few.text;
+  EXPECT_TRUE(says(few, "2.5 across the solid")) << few.text;
+  EXPECT_TRUE(suggests(few, "points", "70000"));
+  EXPECT_TRUE(is_plain(few));
+  const Advice enough = small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 3.5f}, 5);
+  EXPECT_TRUE(says(enough, "hardly show more")) << enough.text;
+  EXPECT_TRUE(enough.settings.empty());
+  EXPECT_TRUE(small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 3.5f}, 6).text.empty());
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -112,6 +114,64 @@ TEST(Stance, IsUsualWhereTheShapeDoesNotTell) {
   EXPECT_EQ(find_stance(make_box(1, 1.2, 1)), usual) << "hardly longer";
   EXPECT_EQ(text(find_stance(make_box(1, 1.3, 1))), "y up, z in front");
   EXPECT_EQ(text(find_stance(make_box(1, 1, 1), {.up = AxisDirection{0, false}})), "x up, z in front");
+}
+
+// What is turned on a lathe about z: a bowl, a spherical shell cut in half, would roll on its side.
+TEST(Stance, OfWhatIsTurnedIsItsAxis) {
+  constexpr std::size_t kRound = 20, kHigh = 6;
+  Mesh bowl;
+  for (const double radius : {80.0, 70.0}) {
+    for (std::size_t ring = 0; ring <= kHigh; ++ring) {
+      const double slope = std::numbers::pi / 2 * double(ring) / kHigh;
+      for (std::size_t k = 0; k < kRound; ++k) {
+        const double turn = 2 * std::numbers::pi * double(k) / kRound;
+        bowl.points.push_back({radius * std::sin(slope) * std::cos(turn),
+                               radius * std::sin(slope) * std::sin(turn), -radius * std::cos(slope)});
+      }
+    }
+  }
+  const auto add = [&](std::size_t low, std::size_t high) {
+    for (std::size_t k = 0; k < kRound; ++k) {
+      const auto a = std::uint32_t(low * kRound + k), b = std::uint32_t(low * kRound + (k + 1) % kRound);
+      const auto c = std::uint32_t(high * kRound + k), d = std::uint32_t(high * kRound + (k + 1) % kRound);
+      bowl.triangles.push_back({a, b, d});
+      bowl.triangles.push_back({a, d, c});
+    }
+  };
+  for (std::size_t ring = 0; ring < kHigh; ++ring) {
+    add(ring, ring + 1);
+    add(kHigh + 2 + ring, kHigh + 1 + ring);
+  }
+  add(kHigh, 2 * kHigh + 1);
+  for (const Stance& stance : {Stance{{2, false}, {1, true}}, Stance{{1, false}, {2, false}}})
+    EXPECT_EQ(text(find_stance(standing(bowl, stance))), text(stance));
+}
+
+// Letters are read from where they face, or from above.
+TEST(Stance, OfFlatPartsShowsThemFlat) {
+  Mesh letter = box({0.05, 0.5, 0.1}, {0.1, 1, 0.2});
+  for (const double y : {0.05, 0.95}) {
+    const Mesh arm = box({0.35, y, 0.1}, {0.5, 0.1, 0.2});
+    const auto first = static_cast<std::uint32_t>(letter.points.size());
+    letter.points.insert(letter.points.end(), arm.points.begin(), arm.points.end());
+    for (const Triangle& t : arm.triangles)
+      letter.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  EXPECT_EQ(text(find_stance(mapped(letter,
+                                    [](const Vec3& p) {
+                                      return Vec3{p.x, p.y, p.z / 8};
+                                    }))),
+            "z up, -y in front");
+  EXPECT_EQ(text(find_stance(mapped(letter,
+                                    [](const Vec3& p) {
+                                      return Vec3{p.x, -p.z / 8, p.y};
+                                    }))),
+            "z up, -y in front");
+  EXPECT_EQ(text(find_stance(mapped(letter,
+                                    [](const Vec3& p) {
+                                      return Vec3{p.z / 8, p.x, p.y};
+                                    }))),
+            "z up, x in front");
 }
 
 TEST(Stance, IsUsualWithoutASurface) {
