@@ -181,8 +181,8 @@ class FindHubs {
     return in_.lattice.spacing * std::cbrt(0.75 / std::numbers::pi * count);
   }
 
-  // Until it holds no more; false where it holds a free end of a limb that is longer than it is thick.  A limb has what
-  // lies outside: how far from the hub its slices begin to grow, noise changes.
+  // Until it holds no more; false where it holds a free end of a limb that is longer than it is thick.  What of
+  // limbs lies outside in the end is theirs: where their slices begin to grow, noise changes.
   bool grow(std::uint32_t number, HubMoments& all, LimbHub& hub) {
     for (bool grows = true; grows;) {
       grows = false;
@@ -210,9 +210,8 @@ class FindHubs {
 
   const LimbHubsInput& in_;
   std::vector<std::uint32_t> ends_;  // of lines, per vertex
-  std::vector<double>
-      length_;  // per vertex that is no joint: of its line, if that is a limb beyond hubs, else 0
-  std::vector<char> is_body_;  // per vertex: no limb's
+  std::vector<double> length_;       // per vertex: of the limb that its line is; 0 of a joint
+  std::vector<char> is_body_;        // per vertex: no limb's
   DisjointSets bodies_;
   std::vector<HubLimb> limbs_;
   std::vector<HubMoments> moments_;  // per vertex: of its points
