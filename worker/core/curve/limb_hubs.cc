@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <numbers>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {
@@ -16,6 +16,7 @@ namespace {
 constexpr double kSudden = 0.4;  // of the way along a line: what a limb's radius grows by where it ends
 constexpr double kThick = 1.55;  // times as thick as the limbs
 constexpr double kGrown = 1.1;   // times the ellipsoid: what lies just outside is no limb's
+constexpr double kPlate = 2;     // times as wide as thick: what is nearest to a line makes no tube
 
 // Of places, each as much.
 struct HubMoments {
@@ -27,6 +28,11 @@ struct HubMoments {
     count += other.count;
     first = first + other.first;
     second = second + other.second;
+  }
+  Vec3 centre() const { return (1 / count) * first; }
+  Matrix3 about_centre() const {
+    const Vec3 c = centre();
+    return second + -1.0 * Matrix3{c.x * first, c.y * first, c.z * first};
   }
 };
 
@@ -40,6 +46,7 @@ class FindHubs {
   explicit FindHubs(const LimbHubsInput& input)
       : in_(input),
         ends_(input.places.size(), 0),
+        length_(input.places.size(), 0),
         is_body_(input.places.size(), 0),
         bodies_(input.places.size()),
         moments_(input.places.size()),
@@ -48,8 +55,12 @@ class FindHubs {
   LimbHubs run() {
     for (const auto& line : in_.lines)
       for (const std::uint32_t v : {line.front(), line.back()}) ++ends_[v];
+    StopCheck stop(in_.context);
+    each_point(stop, [&](const Vec3& at, std::uint32_t v) {
+      moments_[v].add({1, at, {at.x * at, at.y * at, at.z * at}});
+    });
     for (const auto& line : in_.lines) part(line);
-    visit_points();
+    join_what_touches(stop);
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (is_body_[v] && bodies_.find(v) == v) add_hub(v);
     return std::move(result_);
@@ -70,6 +81,19 @@ class FindHubs {
     return *middle;
   }
 
+  // How much wider than thick what is nearest to a line is, across it: in its slices, which are thinner.
+  double flatness(const std::vector<std::uint32_t>& line) const {
+    Matrix3 across{};
+    double count = 0;
+    for (const std::uint32_t v : line) {
+      if (is_joint(v) || moments_[v].count == 0) continue;
+      across = across + moments_[v].about_centre();
+      count += moments_[v].count;
+    }
+    const auto spread = symmetric_eigen(across + count * cell() * kIdentity3).values;
+    return count > 0 ? std::sqrt(spread[0] / spread[1]) : 1;
+  }
+
   // How many of a line's first vertices are no limb's; from its middle on, by what it grows over a radius.
   std::size_t before_limb(const std::vector<std::uint32_t>& line) const {
     for (std::size_t n = line.size() / 2; n > 1; --n) {
@@ -87,7 +111,11 @@ class FindHubs {
     double length = 0;
     for (std::size_t n = 1; n < line.size(); ++n) length += way(line[n - 1], line[n]);
     const double size = size_of(line);
-    if (a != b && is_joint(a) && is_joint(b) && length < 2 * size) return give_body(line, line.size());
+    const bool is_link = is_joint(a) && is_joint(b);
+    if (a != b && is_link && (length < 2 * size || flatness(line) > kPlate))
+      return give_body(line, line.size());
+    for (const std::uint32_t v : line)
+      if (!is_joint(v)) length_[v] = length;
     limbs_.push_back({{a, b}, size});
     for (int end = 0; end < 2; ++end, std::reverse(line.begin(), line.end()))
       if (is_joint(line[0])) give_body(line, before_limb(line));
@@ -100,21 +128,25 @@ class FindHubs {
     }
   }
 
-  // What each vertex has, and which bodies touch: points that follow each other in a row.
-  void visit_points() {
-    StopCheck stop(in_.context);
-    std::array<std::int32_t, 3> last{};
-    std::uint32_t before = kNoHub;
+  double cell() const { return in_.lattice.spacing * in_.lattice.spacing / 12; }
+
+  template <class Visit>
+  void each_point(StopCheck& stop, const Visit& visit) const {
     for_each_point(in_.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       stop.did(10);
-      const std::uint32_t v = in_.nearest[rank];
-      const Vec3 at = in_.lattice.spacing * Vec3{double(i), double(j), double(k)};
-      moments_[v].add({1, at, {at.x * at, at.y * at, at.z * at}});
-      const bool is_next =
-          before != kNoHub && std::abs(i - last[0]) + std::abs(j - last[1]) + std::abs(k - last[2]) == 1;
+      visit(in_.lattice.spacing * Vec3{double(i), double(j), double(k)}, in_.nearest[rank]);
+    });
+  }
+
+  // Bodies of points that follow each other in a row.
+  void join_what_touches(StopCheck& stop) {
+    Vec3 last;
+    std::uint32_t before = kNoHub;
+    each_point(stop, [&](const Vec3& at, std::uint32_t v) {
+      const bool is_next = before != kNoHub && norm(at - last) < 1.1 * in_.lattice.spacing;
       if (is_next && is_body_[v] && is_body_[before]) bodies_.unite(v, before);
       before = v;
-      last = {i, j, k};
+      last = at;
     });
   }
 
@@ -142,37 +174,43 @@ class FindHubs {
     for (const HubLimb& limb : limbs_)
       for (const std::uint32_t end : limb.ends)
         if (bodies_.find(end) == body) thickest = std::max(thickest, limb.size);
-    const double radius = in_.lattice.spacing * std::cbrt(0.75 / std::numbers::pi * count);
-    return thickest > 0 && radius > kThick * thickest;
+    return thickest > 0 && radius_of(count) > kThick * thickest;
   }
 
-  // Until it holds no more; false where it holds a free end.
+  double radius_of(double count) const {  // of a ball
+    return in_.lattice.spacing * std::cbrt(0.75 / std::numbers::pi * count);
+  }
+
+  // Until it holds no more; false where it holds a free end of a limb that is longer than it is thick.  What of
+  // limbs lies outside in the end is theirs: where their slices begin to grow, noise changes.
   bool grow(std::uint32_t number, HubMoments& all, LimbHub& hub) {
     for (bool grows = true; grows;) {
       grows = false;
       fit(all, hub);
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
         if (result_.of[v] != kNoHub || hub.outside(in_.places[v]) >= 0) continue;
-        if (ends_[v] == 1) return false;
+        if (ends_[v] == 1 && length_[v] > 2 * radius_of(all.count)) return false;
         result_.of[v] = number;
         all.add(moments_[v]);
         grows = true;
       }
     }
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0)
+        result_.of[v] = kNoHub;
     return true;
   }
 
   // The mean square of a place in a ball, along an axis, is a fifth of the radius', in a cube a twelfth of the edge's.
   void fit(const HubMoments& all, LimbHub& hub) const {
-    hub.centre = (1 / all.count) * all.first;
-    const Matrix3 square{hub.centre.x * hub.centre, hub.centre.y * hub.centre, hub.centre.z * hub.centre};
-    const double cell = in_.lattice.spacing * in_.lattice.spacing / 12;
-    const Matrix3 spread = (1 / all.count) * all.second + (-1.0 * square + cell * kIdentity3);
+    hub.centre = all.centre();
+    const Matrix3 spread = (1 / all.count) * all.about_centre() + cell() * kIdentity3;
     hub.form = (1 / (5 * kGrown * kGrown)) * inverse_transposed(spread);
   }
 
   const LimbHubsInput& in_;
   std::vector<std::uint32_t> ends_;  // of lines, per vertex
+  std::vector<double> length_;       // per vertex: of the limb that its line is; 0 of a joint
   std::vector<char> is_body_;        // per vertex: no limb's
   DisjointSets bodies_;
   std::vector<HubLimb> limbs_;

@@ -41,10 +41,11 @@ struct LimbHubsInput {
 };
 
 /// Of what is nearest to a line, a limb has what makes about a tube.  From its middle on towards a joint it ends where that
-/// suddenly grows, and a link that is shorter than thick is none.  What no limb has, as far as it hangs together in the
-/// solid, is a hub where it is clearly more than a ball as thick as the thickest limb there: lines may run beside its
-/// middle, from arm to arm, in another way at each spacing.  As large as an ellipsoid with its moments, it takes what is
-/// nearest to lines in that, too, and so on; one that would then hold a limb's free end is none.
+/// suddenly grows, and a link that is shorter than thick, or whose slices are twice as wide as thick, is none.  What no limb
+/// has, as far as it hangs together in the solid, is a hub where it is clearly more than a ball as thick as the thickest limb
+/// there: lines may run beside its middle, from arm to arm, in another way at each spacing.  As large as an ellipsoid with its
+/// moments, it takes what is nearest to lines in that, too, and so on, and leaves what is not; one that would then hold the
+/// free end of a limb that is longer than the hub is thick is none.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core

@@ -23,10 +23,10 @@ struct Cube : DrawnLines {
   Vec3 middle;
   std::vector<double> radius;
 
-  Cube() {
+  explicit Cube(const Vec3& sides = {kCubeSide, kCubeSide, kCubeSide}) {
     LatticeOptions options;
     options.spacing = 0.2;
-    lattice = make_lattice(make_solid(make_box(kCubeSide, kCubeSide, kCubeSide)), options);
+    lattice = make_lattice(make_solid(make_box(sides.x, sides.y, sides.z)), options);
     each_point([&](const Vec3& at, std::uint32_t) {
       middle = middle + (1 / static_cast<double>(lattice.points)) * at;
     });
@@ -37,13 +37,14 @@ struct Cube : DrawnLines {
       visit(lattice.spacing * Vec3{double(i), double(j), double(k)}, rank);
     });
   }
-  // Limbs of 0.5 whose radius grows to `within` towards the joint, by so much of the way.
-  void go_out(std::uint32_t joint, const std::vector<Vec3>& steps, double within, double grows) {
+  // Limbs of 0.5 whose radius grows to `within` towards the joint, by so much of the way, so far from it.
+  void go_out(std::uint32_t joint, const std::vector<Vec3>& steps, double within, double grows,
+              double from = 2) {
     radius.resize(places.size(), within);
     for (const Vec3& step : steps) {
       go(joint, step, 80, 0.5);
       for (int n = 1; n <= 80; ++n)
-        radius.push_back(std::max(0.5, std::min(within, 0.5 + grows * (2 - 0.1 * n))));
+        radius.push_back(std::max(0.5, std::min(within, 0.5 + grows * (from - 0.1 * n))));
     }
   }
   LimbHubs found() const {
@@ -61,7 +62,7 @@ const std::vector<Vec3> kCross{{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1,
 TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
   Cube cube;
   const std::uint32_t joint = cube.add(cube.middle, 2);
-  cube.go_out(joint, kCross, 2.2, 2);
+  cube.go_out(joint, kCross, 2.2, 2, 3.5);  // beyond the ellipsoid
   const LimbHubs found = cube.found();
   ASSERT_EQ(found.hubs.size(), 1U);
   const LimbHub& hub = found.hubs[0];
@@ -119,8 +120,34 @@ TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
   EXPECT_TRUE(cube_with_limb(80, 1.7).found().hubs.empty()) << "a ball as large as the cube has 2.48";
 }
 
+TEST(LimbHubs, HoldASpur) {
+  const Cube cube = cube_with_limb(20, 0.5);
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of.back(), 0U);
+}
+
+// 5.2 long, in a cube that is as thick as a ball of 4.96.
 TEST(LimbHubs, HoldNoLimbsEnd) {
-  EXPECT_TRUE(cube_with_limb(20, 0.5).found().hubs.empty());
+  Cube cube = cube_with_limb(18, 0.5);
+  const std::uint32_t aside = cube.go(cube.segments.back()[1], {0.1, 0, 0}, 18, 0.5);
+  cube.go(aside, {0, 0, -0.1}, 16, 0.5);
+  cube.radius.resize(cube.places.size(), 0.5);
+  EXPECT_TRUE(cube.found().hubs.empty());
+}
+
+// A seat whose two joints are farther apart than what is nearest to the link between them is thick, by its volume.
+TEST(LimbHubs, AreAsWideAsAPlate) {
+  Cube plate({12, 12, 2});
+  const std::uint32_t one = plate.add(plate.middle - Vec3{2.5, 0, 0}, 2);
+  const std::uint32_t other = plate.go(one, {0.1, 0, 0}, 50, 1);
+  plate.radius.assign(plate.places.size(), 2.4);
+  plate.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5);
+  plate.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5);
+  const LimbHubs found = plate.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[one], 0U);
+  EXPECT_EQ(found.of[other], 0U);
 }
 
 }  // namespace

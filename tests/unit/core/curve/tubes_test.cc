@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/curve/curved.h"
+#include "core/mesh/perturb.h"
 #include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 
@@ -288,6 +289,38 @@ TEST(Tubes, EqualArmsOfABallAreEqualAndItIsOnePart) {
     const CurveBranch& body = solid.graph.branches[0];
     EXPECT_EQ(body.kind, BranchKind::kPoint) << points;
     EXPECT_NEAR(body.share + std::accumulate(shares.begin(), shares.end(), 0.0), 1, 0.001) << points;
+  }
+}
+
+// Spurs and links run in a seat as noise would have it; it is one part, and its legs are equal.
+TEST(Tubes, ASeatIsOnePartUnderNoise) {
+  const auto box = [](const Vec3& low, const Vec3& high, const Vec3& p) {
+    const auto out = [](double a, double b, double x) { return std::max(a - x, x - b); };
+    return std::max({out(low.x, high.x, p.x), out(low.y, high.y, p.y), out(low.z, high.z, p.z)});
+  };
+  const ImplicitFunction f = [&](const Vec3& p) {
+    const Vec3 leg{std::abs(p.x), std::abs(p.y), p.z};
+    return std::min({box({-20, -20, 40}, {20, 20, 45}, p), box({14, 14, 0}, {19, 19, 42}, leg),
+                     box({14, 14, 42}, {19, 19, 80}, {leg.x, p.y, p.z}),
+                     box({-16, 14, 75}, {16, 19, 80}, p)});
+  };
+  const Mesh mesh = mesh_zero_set(f, {{-22.03, -22.03, -2.03}, {22, 22, 82}, 1.6});
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Measured solid = measured(perturb(mesh, {0.1, seed}));
+    std::vector<double> legs;
+    for (const double x : {-16.5, 16.5})
+      for (const double y : {-16.5, 16.5}) {
+        const CurveBranch& leg = solid.to({x, y, 0});
+        EXPECT_EQ(leg.kind, BranchKind::kLimb) << seed;
+        EXPECT_NEAR(leg.length, 40, 4) << seed;
+        legs.push_back(leg.share);
+      }
+    const CurveBranch& seat = solid.graph.branches[0];
+    EXPECT_EQ(seat.kind, BranchKind::kPoint) << seed;
+    EXPECT_NEAR(seat.share * solid.volume / 8000, 1, 0.1) << seed;
+    std::size_t parts = 0;
+    for (const CurveBranch& branch : solid.graph.branches) parts += branch.share > 0;
+    EXPECT_EQ(parts, 6U) << seed;
   }
 }
 
