@@ -1,10 +1,12 @@
 #include "core/ridge/ridge_anchors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <numbers>
-#include <utility>
+#include <set>
+#include <span>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
@@ -33,7 +35,7 @@ class Choice {
     take_curves();
     throw_if_stopped(context_);
     take_tips();
-    take_centres();
+    take_middles();
     sort_places();
     return std::move(result_);
   }
@@ -174,12 +176,10 @@ class Choice {
   }
 
   void take_tips() {
-    std::vector<char> anchored(complex_.cubes(), 0);
-    for (const Anchor& anchor : result_.anchors)
-      for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
-    const auto reached = [&](std::uint32_t cube, float) { return anchored[cube] != 0; };
+    const std::vector<char> anchored = anchored_cubes();
     for (std::size_t n = 0; n < evidence_.limbs.size(); ++n) {
       const LimbTip& tip = evidence_.limbs[n];
+      const auto reached = [&](std::uint32_t cube, float) { return anchored[cube] != 0; };
       if (taken_.has(tip.vertex) ||
           is_near(complex_, tip.vertex, static_cast<float>(allowed_from(tip)), reached))
         continue;
@@ -192,6 +192,13 @@ class Choice {
     }
   }
 
+  std::vector<char> anchored_cubes() const {
+    std::vector<char> anchored(complex_.cubes(), 0);
+    for (const Anchor& anchor : result_.anchors)
+      for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
+    return anchored;
+  }
+
   // How far from a tip what is anchored may end: so far from the surface, which is the tip's own radius farther away.
   // Where that is less than half its limb's, the tip may be in a corner of a blunt end: so far from three sides.
   double allowed_from(const LimbTip& tip) const {
@@ -200,19 +207,34 @@ class Choice {
     return constants_.end_spacings + sides * (constants_.end_radii * tip.radius - radius);
   }
 
-  // For components that have no anchor yet.
-  void take_centres() {
-    std::vector<char> anchored(complex_.cubes(), 0);
-    const auto mark = [&](std::uint32_t cube) { return std::exchange(anchored[components_.find(cube)], 1); };
-    for (const Anchor& anchor : result_.anchors) mark(DualComplex::cube_of(anchor.cell));
+  // Every component has its middle in its skeleton: a jar is more than its neck, an apple more than its stalk.
+  void take_middles() {
+    std::map<std::uint32_t, Middle> middles;  // by component
+    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
+      look_deeper(cube, middles[components_.find(cube)]);
     std::stable_sort(short_ones_.begin(), short_ones_.end(),
                      [](const Stretch& a, const Stretch& b) { return a.length > b.length; });
-    for (const Stretch& stretch : short_ones_)
-      if (!mark(stretch.curve->cells[stretch.first])) take_stretch(stretch);
-    std::map<std::uint32_t, Deepest> deepest;  // by component
-    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
-      if (!anchored[components_.find(cube)]) look_deeper(cube, deepest[components_.find(cube)]);
-    for (const auto& [component, found] : deepest) take({found.square, 0});
+    const std::vector<char> anchored = anchored_cubes();
+    for (const auto& [component, found] : middles) {
+      std::set<std::uint32_t> about;
+      const auto reached = [&](std::uint32_t cube, float) {
+        about.insert(cube);
+        return anchored[cube] != 0;
+      };
+      const double allowed = constants_.end_spacings +
+                             constants_.middle_radii * radius_about(complex_, evidence_.radius, found.square);
+      if (is_near(complex_, found.square, static_cast<float>(allowed), reached)) continue;
+      const auto through = std::find_if(short_ones_.begin(), short_ones_.end(), [&](const Stretch& stretch) {
+        const auto cells =
+            std::span(stretch.curve->cells).subspan(stretch.first, stretch.last - stretch.first);
+        return std::any_of(cells.begin(), cells.end(),
+                           [&](std::uint32_t cell) { return about.contains(cell); });
+      });
+      if (through != short_ones_.end())
+        take_stretch(*through);
+      else
+        take({found.square, 0});
+    }
   }
 
   void join_components() {
@@ -256,18 +278,24 @@ class Choice {
       result_.left_out[cube] = fragments.contains(components_.find(cube));
   }
 
-  // The square between the two sample points of the greatest E.
-  struct Deepest {
-    double erosion = -1;
+  // The square in the middle of a component: of its two sample points E and the distance to the surface are large.  E
+  // alone is greatest in the hollow of a ring.
+  struct Middle {
+    double depth = -1;
     Cell square = 0;
   };
 
-  void look_deeper(std::uint32_t cube, Deepest& known) const {
+  double depth_at(std::uint32_t cube) const {
+    return std::sqrt(std::sqrt(evidence_.field.erosion[cube])) * static_cast<double>(evidence_.radius[cube]);
+  }
+
+  void look_deeper(std::uint32_t cube, Middle& known) const {
+    const double here = depth_at(cube);
+    if (here <= known.depth) return;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::uint32_t to = complex_.neighbour(cube, axis, 2);
-      const double erosion =
-          to == DualComplex::kNone ? 0 : std::min(evidence_.field.erosion[cube], evidence_.field.erosion[to]);
-      if (erosion > known.erosion) known = {erosion, complex_.square(cube, axis)};
+      const double depth = to == DualComplex::kNone ? 0 : std::min(here, depth_at(to));
+      if (depth > known.depth) known = {depth, complex_.square(cube, axis)};
     }
   }
 

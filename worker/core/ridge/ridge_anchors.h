@@ -55,8 +55,8 @@ struct RidgeAnchors {
 ///    form, which have one of s >= high that is not round, and area enough.
 /// 2. Stretches of ridge curves, off that, that are long enough.
 /// 3. Tips of limbs that end far from both.
-/// 4. In components of the complex that have none of these the longest stretch of a curve, or else the square
-///    with the greatest E.
+/// 4. Where these do not come near the middle of a component of the complex, where E^(1/4) times the distance to the
+///    surface is greatest, the longest stretch of a curve that does, or else the square there.
 /// The lower the bounds, the more.  A function of its arguments alone.
 /// @throws CoreError kBadInput when a bound is out of range; kCancelled when the context asks to stop.
 RidgeAnchors ridge_anchors(const RidgeEvidence& evidence, const RidgeBounds& bounds,

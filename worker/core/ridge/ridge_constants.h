@@ -39,6 +39,9 @@ struct RidgeConstants {
   double limb_reach = 0.9;
   double end_radii = 1.2;
   double end_spacings = 1;
+
+  // So many radii from what is anchored lies the middle of a component at most, or else it is anchored, too.
+  double middle_radii = 0.5;
 };
 
 }  // namespace affskel::core

@@ -13,6 +13,7 @@
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/ridge/sheet_solids.h"
+#include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid_membership.h"
 #include "core/test_solids.h"
@@ -177,6 +178,27 @@ TEST(RidgeSheet, OfAConeIsItsAxis) {
   const ErodedSolid cone(make_cone(1, 6, 32), axes(h), "triangles+sphere:320");
   // The way to its tip goes on straight from where it is thinner than the lattice resolves.
   expect_axis(cone, ridge_sheet(cone.solid, cone.lattice, cone.field), 0.5 * h, 1, 5.4);
+}
+
+// A stalk has a ridge, the apple on it none that lasts: what is round on all sides has no direction.
+TEST(RidgeSheet, LeadsFromALimbToTheMiddleOfARoundBody) {
+  const auto apple = [](const Vec3& p) {
+    return std::min(norm(p) - 1, std::max(std::hypot(p.x, p.y) - 0.2, std::abs(p.z - 1.2) - 0.8));
+  };
+  const double h = 0.1;
+  const ErodedSolid solid(mesh_zero_set(apple, {{-1.3, -1.3, -1.3}, {1.3, 1.3, 2.3}, 0.1}), axes(h),
+                          "sphere:320");
+  const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+  EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
+  Range z, off_axis;
+  for (const SheetVertex& v : sheet.vertices) {
+    const Vec3 at = solid.place(v.position);
+    z.take(at.z);
+    off_axis.take(std::hypot(at.x, at.y));
+  }
+  EXPECT_NEAR(z.low, 0, 0.1);  // of the ball and half of the stalk: E is as large a tenth higher
+  EXPECT_GT(z.high, 1.6);
+  EXPECT_LT(off_axis.high, 2 * h);
 }
 
 TEST(RidgeSheet, OfTwoCylindersIsTheAxisOfEach) {
