@@ -1,10 +1,8 @@
 #include "client/operations/inspection.h"
 
-#include <cmath>
-
 #include "core/base/error.h"
 #include "core/repair/fill_holes.h"
-#include "core/solid/surface_samples.h"
+#include "core/repair/repair_mesh.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {
@@ -110,13 +108,6 @@ ordered_json holes_json(const core::Mesh& mesh, std::size_t max_places) {
   return {{"count", holes.size()}, {"longest", std::move(list)}};
 }
 
-// What fills the holes of such would bound nothing.
-bool is_flat(const core::Mesh& mesh) {
-  constexpr double kNothing = 1e-6;  // volume by area^(3/2), as of repair
-  if (mesh.triangles.empty()) return false;
-  return std::fabs(core::enclosed_volume(mesh)) < kNothing * std::pow(core::surface_area(mesh), 1.5);
-}
-
 }  // namespace
 
 Inspection inspect(const InputFile& input, std::size_t max_places, core::ExecutionContext* context) {
@@ -132,7 +123,7 @@ Inspection inspect(const InputFile& input, std::size_t max_places, core::Executi
     inspection.facts["computable"] = false;
     inspection.facts["defects"] = defects_json(find_defects(input.off, max_places));
     inspection.facts["holes"] = holes_json(input.off.mesh, max_places);
-    if (is_flat(input.off.mesh)) inspection.facts["flat"] = true;
+    if (core::is_flat_sheet(input.off.mesh)) inspection.facts["flat"] = true;
     inspection.error = error;
   }
   return inspection;

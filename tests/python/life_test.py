@@ -174,7 +174,7 @@ class Waiting(WithDirectory):
         for timeout in (float("inf"), 1e300, 1e10):
             job.wait(timeout=timeout)
             self.assertEqual(len(job.directions(timeout=timeout)), 12)
-        self.assertRegex(repr(job.status()), "^<affskel.Status of .*, done, [0-9]+ points, skeleton of [0-9]+>$")
+        self.assertRegex(repr(job.status()), "^<affskel.Status of .*, done, [0-9]+ points, skeleton of [0-9]+: it is hardly more than a point.*>$")
         for call in (job.wait, job.lattice):
             with self.assertRaises(affskel.UsageError):
                 call(timeout=float("nan"))

@@ -76,7 +76,7 @@ def parse_address(text: str) -> Address:
         raise refuse("that is a URL")
     host, colon, port = text.rpartition(":")
     if not colon:
-        raise refuse("no port")
+        raise refuse("no port behind a host and a colon")
     bracketed = len(host) >= 2 and host[0] == "[" and host[-1] == "]"
     if bracketed:
         host = host[1:-1]

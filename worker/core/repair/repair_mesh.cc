@@ -26,7 +26,6 @@ constexpr double kSmallest = 1e-60, kLargest = 1e60;
 constexpr double kWrapOffset = 0.1;  // of alpha
 // Volume by area^(3/2): a ball 0.094, a rod fifty times as long as thick 0.03, a plate of 1 % 0.0035.
 constexpr double kFlat = 1e-3;
-constexpr double kNothing = 1e-6;  // likewise: single precision gives a flat sheet 1e-7
 // Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more than
 // 0.5 % off when these were filled were beyond it, of those with many holes none.
 constexpr double kToldBulge = 0.003;
@@ -158,7 +157,7 @@ class Mending {
     std::uint64_t flaps = 0, sound = 0;
     for (std::uint32_t i = 0; i < count; ++i)
       if (parts.find(i) == i && area[i] > 0) (is_flap(i) ? flaps : sound) += 1;
-    is_sheet_ = sound == 0 && std::fabs(enclosed_volume(mesh)) < kNothing * std::pow(surface_area(mesh), 1.5);
+    is_sheet_ = sound == 0 && is_flat_sheet(mesh);
     if (flaps == 0 || sound == 0) return;
     std::vector<Triangle> kept;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -275,6 +274,11 @@ void check_size(const Mesh& mesh) {
 }
 
 }  // namespace
+
+bool is_flat_sheet(const Mesh& mesh) {
+  constexpr double kNothing = 1e-6;  // volume by area^(3/2), as kFlat: single precision gives a flat sheet 1e-7
+  return std::fabs(enclosed_volume(mesh)) < kNothing * std::pow(surface_area(mesh), 1.5);
+}
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   check_size(mesh);

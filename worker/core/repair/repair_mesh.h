@@ -45,6 +45,9 @@ struct RepairedMesh {
   std::string left;           ///< what it still lacks, with what would help; empty: nothing
 };
 
+/// Whether a mesh is a flat sheet, which encloses nothing however its holes are filled.
+bool is_flat_sheet(const Mesh& mesh);
+
 /// Makes a mesh bound a solid, in steps that are told.
 /// @throws CoreError kBadInput without points, without lengths of one's own for an open flat sheet, for a
 ///   box of 1e60 or more, of 1e-60 or less, for an alpha below a 2000th of its diagonal; kCancelled.
