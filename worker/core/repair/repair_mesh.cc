@@ -276,7 +276,8 @@ void check_size(const Mesh& mesh) {
 }  // namespace
 
 bool is_flat_sheet(const Mesh& mesh) {
-  constexpr double kNothing = 1e-6;  // volume by area^(3/2), as kFlat: single precision gives a flat sheet 1e-7
+  constexpr double kNothing =
+      1e-6;  // volume by area^(3/2), as kFlat: single precision gives a flat sheet 1e-7
   return std::fabs(enclosed_volume(mesh)) < kNothing * std::pow(surface_area(mesh), 1.5);
 }
 
