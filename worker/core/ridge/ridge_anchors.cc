@@ -215,26 +215,28 @@ class Choice {
     std::stable_sort(short_ones_.begin(), short_ones_.end(),
                      [](const Stretch& a, const Stretch& b) { return a.length > b.length; });
     const std::vector<char> anchored = anchored_cubes();
-    for (const auto& [component, found] : middles) {
-      std::set<std::uint32_t> about;
-      const auto reached = [&](std::uint32_t cube, float) {
-        about.insert(cube);
-        return anchored[cube] != 0;
-      };
-      const double allowed = constants_.end_spacings +
-                             constants_.middle_radii * radius_about(complex_, evidence_.radius, found.square);
-      if (is_near(complex_, found.square, static_cast<float>(allowed), reached)) continue;
-      const auto through = std::find_if(short_ones_.begin(), short_ones_.end(), [&](const Stretch& stretch) {
-        const auto cells =
-            std::span(stretch.curve->cells).subspan(stretch.first, stretch.last - stretch.first);
-        return std::any_of(cells.begin(), cells.end(),
-                           [&](std::uint32_t cell) { return about.contains(cell); });
-      });
-      if (through != short_ones_.end())
-        take_stretch(*through);
-      else
-        take({found.square, 0});
-    }
+    for (const auto& [component, found] : middles) take_middle(found.square, anchored);
+  }
+
+  // Unless what is anchored comes near.
+  void take_middle(Cell square, const std::vector<char>& anchored) {
+    const double allowed =
+        constants_.end_spacings + constants_.middle_radii * radius_about(complex_, evidence_.radius, square);
+    std::set<std::uint32_t> about;
+    const auto reached = [&](std::uint32_t cube, float) {
+      about.insert(cube);
+      return anchored[cube] != 0;
+    };
+    if (is_near(complex_, square, static_cast<float>(allowed), reached)) return;
+    const auto through = std::find_if(short_ones_.begin(), short_ones_.end(), [&](const Stretch& stretch) {
+      const auto cells = std::span(stretch.curve->cells).subspan(stretch.first, stretch.last - stretch.first);
+      return std::any_of(cells.begin(), cells.end(),
+                         [&](std::uint32_t cell) { return about.contains(cell); });
+    });
+    if (through != short_ones_.end())
+      take_stretch(*through);
+    else
+      take({square, 0});
   }
 
   void join_components() {

@@ -85,19 +85,23 @@ TEST(LimbHubs, TheRimOfAFlatOneIsAsFarAsItIs) {
   EXPECT_NEAR(plate.outside({0, 0, 3}), 2, 1e-12);
 }
 
-// Lines beside the cube's middle, from arm to arm, and a link between them that is shorter than thick.
-TEST(LimbHubs, AreOneHoweverLinesRunInThem) {
-  Cube cube;
-  const std::uint32_t one = cube.add(cube.middle + Vec3{-1, 0, -1.5}, 2);
-  const std::uint32_t other = cube.go(one, {0.1, 0, 0}, 20, 1);
-  cube.radius.assign(cube.places.size(), 1.1);
-  cube.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5);
-  cube.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5);
-  const LimbHubs found = cube.found();
+// A body with a link of so many vertices between two joints, and two limbs at each.
+void expect_one_hub_of_two_joints(Cube body, const Vec3& first, int vertices, double radius) {
+  const std::uint32_t one = body.add(body.middle + first, 2);
+  const std::uint32_t other = body.go(one, {0.1, 0, 0}, vertices, 1);
+  body.radius.assign(body.places.size(), radius);
+  body.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5);
+  body.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5);
+  const LimbHubs found = body.found();
   ASSERT_EQ(found.hubs.size(), 1U);
   EXPECT_EQ(found.of[one], 0U);
   EXPECT_EQ(found.of[other], 0U);
-  EXPECT_LT(norm(found.hubs[0].centre - cube.middle), 0.05);
+  EXPECT_LT(norm(found.hubs[0].centre - body.middle), 0.05);
+}
+
+// Lines beside the cube's middle, from arm to arm, and a link between them that is shorter than thick.
+TEST(LimbHubs, AreOneHoweverLinesRunInThem) {
+  expect_one_hub_of_two_joints(Cube(), {-1, 0, -1.5}, 20, 1.1);
 }
 
 TEST(LimbHubs, AreNotWhereLimbsGrowSlowly) {
@@ -138,16 +142,7 @@ TEST(LimbHubs, HoldNoLimbsEnd) {
 
 // A seat whose two joints are farther apart than what is nearest to the link between them is thick, by its volume.
 TEST(LimbHubs, AreAsWideAsAPlate) {
-  Cube plate({12, 12, 2});
-  const std::uint32_t one = plate.add(plate.middle - Vec3{2.5, 0, 0}, 2);
-  const std::uint32_t other = plate.go(one, {0.1, 0, 0}, 50, 1);
-  plate.radius.assign(plate.places.size(), 2.4);
-  plate.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5);
-  plate.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5);
-  const LimbHubs found = plate.found();
-  ASSERT_EQ(found.hubs.size(), 1U);
-  EXPECT_EQ(found.of[one], 0U);
-  EXPECT_EQ(found.of[other], 0U);
+  expect_one_hub_of_two_joints(Cube({12, 12, 2}), {-2.5, 0, 0}, 50, 2.4);
 }
 
 }  // namespace
