@@ -60,13 +60,8 @@ AffineMap rotation(int axis, double degrees) {
 }
 
 AffineMap shear(int to, int from, double factor) {
-  const auto entry = [&](int row, int column) {
-    return row == column ? 1.0 : row == to && column == from ? factor : 0.0;
-  };
   AffineMap map;
-  for (int row = 0; row < 3; ++row) {
-    map.rows[static_cast<std::size_t>(row)] = {entry(row, 0), entry(row, 1), entry(row, 2)};
-  }
+  map.rows[static_cast<std::size_t>(to)][from] = factor;
   return map;
 }
 
@@ -111,10 +106,9 @@ AffineMap inverse(const AffineMap& map) {
   const std::array<Vec3, 3> c = cofactors(rows);
   const double det = dot(rows[0], c[0]);
   AffineMap result;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     // The cofactors, transposed; adding 0 turns a negative zero into a plain one.
-    result.rows[static_cast<std::size_t>(i)] =
-        Vec3{c[0][i] / det / unit, c[1][i] / det / unit, c[2][i] / det / unit} + Vec3{};
+    result.rows[i] = Vec3{c[0][i] / det / unit, c[1][i] / det / unit, c[2][i] / det / unit} + Vec3{};
   }
   result.shift = Vec3{} - result(map.shift);  // the shift is 0 up to here
   return result;

@@ -24,11 +24,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-double distance_to(const Box& box, const Vec3& at) {
-  const auto out = [&](std::size_t k, double x) { return std::max({0.0, box.low[k] - x, x - box.high[k]}); };
-  return norm({out(0, at.x), out(1, at.y), out(2, at.z)});
-}
-
 }  // namespace
 
 // Of a way from the middle of a ring; 1 on its ellipse.
@@ -297,7 +292,7 @@ std::uint32_t LimbTubes::own_vertex(const Limb& limb, std::size_t n) const {
 }
 
 bool LimbTubes::holds(const Limb& limb, const Vec3& at) const {
-  return distance_to(limb.box, at) <= 0 && depth_below(limb, nearest_in(limb, at), at) < 0;
+  return limb.box.squared_distance(at) <= 0 && depth_below(limb, nearest_in(limb, at), at) < 0;
 }
 
 // A joint's next vertex, the nearest that is none; the joint where there is none.
@@ -365,7 +360,7 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
   // A handle has no more than what is nearest to it: noise makes some within a body's hips.
   any_beside(limb, [&](const Limb& other) {
     const bool is_handle = other.ends[0] == other.ends[1] && other.size <= limb.size;
-    if (is_handle || distance_to(other.box, at) >= least) return false;
+    if (is_handle || std::sqrt(other.box.squared_distance(at)) >= least) return false;
     const std::size_t n = nearest_in(other, at);
     const double depth = depth_below(other, n, at);
     if (depth < least) {

@@ -56,9 +56,9 @@ class FourTree::Builder {
   void put(Node& node, std::uint32_t place, const Box& box) const {
     const Vec3 middle = box.middle(), half = 0.5 * box.sides();
     for (std::size_t k = 0; k < 3; ++k) {
-      node.boxes.centre[k][place] = static_cast<float>(middle[static_cast<int>(k)]);
-      node.boxes.half[k][place] = kLeastSide + std::nextafter(static_cast<float>(half[static_cast<int>(k)]),
-                                                              std::numeric_limits<float>::infinity());
+      node.boxes.centre[k][place] = static_cast<float>(middle[k]);
+      node.boxes.half[k][place] =
+          kLeastSide + std::nextafter(static_cast<float>(half[k]), std::numeric_limits<float>::infinity());
     }
   }
 
@@ -80,8 +80,8 @@ class FourTree::Builder {
           Box box;
           for (std::uint32_t i = 0; i < quarter.count; ++i) {
             const Box& item = boxes_[order_[quarter.first + i]];
-            box.include(item.lowest());
-            box.include(item.highest());
+            box.include(item.low);
+            box.include(item.high);
           }
           put(node, size, box);
           node.child[size++] = build(level + 1, quarter);

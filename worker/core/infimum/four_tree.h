@@ -49,7 +49,7 @@ class PlaneHeights {
   static Four distance(const FourBoxes& boxes, const Vec3& x) {
     Four sum = boxes.half[0] + boxes.half[1] + boxes.half[2] + kSlack;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four away = boxes.centre[k] - static_cast<float>(x[k]);
       sum += away < 0 ? -away : away;
     }
     return sum;
@@ -59,7 +59,7 @@ class PlaneHeights {
   static Four distance_squared(const FourBoxes& boxes, const Vec3& x) {
     Four sum = {0, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four away = boxes.centre[k] - static_cast<float>(x[k]);
       const Four most = (away < 0 ? -away : away) + boxes.half[k] + kSlack;
       sum += most > 0 ? most * most : Four{};
     }
@@ -70,7 +70,7 @@ class PlaneHeights {
   static Four gap(const FourBoxes& boxes, const Vec3& x) {
     Four most = {0, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four away = boxes.centre[k] - static_cast<float>(x[k]);
       const Four outside = (away < 0 ? -away : away) - boxes.half[k] - kSlack;
       most = outside > most ? outside : most;
     }

@@ -210,10 +210,7 @@ struct FrameBox {
 
 FrameBox box_in(const Solid& solid, const Matrix3& f) {
   if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}};
-  const Matrix3 inverse = inverse_transposed(f);
-  const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
-  Box box;
-  for (const Vec3& p : solid.mesh.points) box.include(in_frame(p));
+  const Box box = box_of(solid.mesh.points, inverse_transposed(f));
   return {solid.scale() * box.sides(), f * box.middle()};
 }
 
@@ -245,13 +242,12 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
   if (!plan.fits) return plan;
   const double step = std::ldexp(spacing, -solid.exponent);
   plan.grid.axes = step * options.frame;
-  std::array<double, 3> origin{};
-  for (int k = 0; k < 3; ++k) {
+  Vec3 corner;
+  for (std::size_t k = 0; k < 3; ++k) {
     const double count = points_per_side(sides[k] / spacing);
-    plan.grid.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
-    origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
+    plan.grid.dims[k] = static_cast<std::uint32_t>(count);
+    corner[k] = -0.5 * (count - 1) * step;
   }
-  const Vec3 corner{origin[0], origin[1], origin[2]};
   plan.grid.origin = box.centre + options.frame * corner;
   return plan;
 }

@@ -93,9 +93,8 @@ class Nester {
   }
 
   void extend(Extremes& extremes, std::uint32_t v) const {
-    for (int k = 0; k < 3; ++k) {
-      std::uint32_t& least = extremes[static_cast<std::size_t>(2 * k)];
-      std::uint32_t& most = extremes[static_cast<std::size_t>(2 * k + 1)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t &least = extremes[2 * k], &most = extremes[2 * k + 1];
       if (least == kNone || mesh_.points[v][k] < mesh_.points[least][k]) least = v;
       if (most == kNone || mesh_.points[v][k] > mesh_.points[most][k]) most = v;
     }

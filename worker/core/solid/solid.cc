@@ -192,9 +192,9 @@ class SolidBuilder {
     int exponent = 0;
     if (std::frexp(side, &exponent) == 0.5) --exponent;
     solid_.exponent = exponent;
-    solid_.bbox_min = box.lowest();
-    solid_.bbox_max = box.highest();
-    solid_.centre = box.lowest() + 0.5 * box.sides();
+    solid_.bbox_min = box.low;
+    solid_.bbox_max = box.high;
+    solid_.centre = box.low + 0.5 * box.sides();
     for (Vec3& p : mesh.points) {
       p = p - solid_.centre;
       p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};

@@ -15,6 +15,19 @@ double centre_of(const Box& box, std::size_t axis) {
 
 }  // namespace
 
+bool WayQuery::meets(const Box& box) const {
+  double begin = 0, end = last;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double to_low = box.low[k] - slack - from[k], to_high = box.high[k] + slack - from[k];
+    if (way[k] == 0 && (to_low > 0 || to_high < 0)) return false;
+    if (way[k] == 0) continue;
+    const double a = to_low / way[k], b = to_high / way[k];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return !(begin > end);
+}
+
 BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
   std::iota(items_.begin(), items_.end(), 0u);
   const auto count = static_cast<std::uint32_t>(items_.size());

@@ -50,7 +50,7 @@ OrientedBox OrientedBoxTree::box_round(std::uint32_t first, std::uint32_t count)
   for (std::uint32_t m = first; m < first + count; ++m) {
     for (const Vec3& p : triangles_.corners(members_[m])) {
       const Vec3 q = p - mean;
-      covariance = covariance + Matrix3{q.x * q, q.y * q, q.z * q};
+      covariance = covariance + outer(q, q);
     }
   }
   OrientedExtent extent(symmetric_eigen(covariance).vectors);

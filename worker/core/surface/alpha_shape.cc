@@ -60,7 +60,7 @@ std::optional<std::vector<Vec3>> lattice_coordinates(std::span<const Vec3> point
   if (!(spacing > 0)) return std::nullopt;
   constexpr double kTolerance = 1e-6;
   constexpr double kMaxSteps = 1 << 24;
-  const Vec3 low = box_of(points).lowest();
+  const Vec3 low = box_of(points).low;
   bool whole = true;
   const auto snap = [&](double difference) {
     const double steps = difference / spacing, nearest = std::round(steps);

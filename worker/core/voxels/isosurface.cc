@@ -205,8 +205,8 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
       options.resolution > 0 ? options.resolution : std::max({1.0, longest / kCellsAlongTheSolid, enough});
   const double margin = 1 + 1.5 * found.resolution;
   ImplicitMeshOptions cubes;
-  cubes.low = inside.reach().lowest() - Vec3{margin, margin, margin};
-  cubes.high = inside.reach().highest() + Vec3{margin, margin, margin};
+  cubes.low = inside.reach().low - Vec3{margin, margin, margin};
+  cubes.high = inside.reach().high + Vec3{margin, margin, margin};
   cubes.spacing = found.resolution;
   const Vec3 box = cubes.high - cubes.low;
   if (box.x / cubes.spacing * (box.y / cubes.spacing) * (box.z / cubes.spacing) > kMaxCubes)
