@@ -7,13 +7,6 @@
 #include "core/base/parallel.h"
 
 namespace affskel::core {
-namespace {
-
-double centre_of(const Box& box, std::size_t axis) {
-  return box.low[axis] / 2 + box.high[axis] / 2;
-}
-
-}  // namespace
 
 bool WayQuery::meets(const Box& box) const {
   double begin = 0, end = last;
@@ -46,20 +39,8 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
   nodes_[index] = {box, first, count, 0, max_index};
   if (count <= kLeafItems) return;
 
-  const std::size_t axis = longest_axis(first, count);
-  const auto centre = [&](std::uint32_t i) { return centre_of(boxes_[i], axis); };
+  const auto centre = [&](std::uint32_t i) { return 0.5 * boxes_[i].low + 0.5 * boxes_[i].high; };
   halve_node(nodes_, index, items_, threads, centre, [this](auto... half) { build(half...); });
-}
-
-// Of the centres, not of the box: the faces of boxes within boxes all have their centres in the middle of the
-// longest sides.  Halved there, by nothing but their indices, each half would fill the whole box again.
-std::size_t BoxTree::longest_axis(std::uint32_t first, std::uint32_t count) const {
-  Box centres;
-  for (std::uint32_t i = first; i < first + count; ++i) {
-    const Box& box = boxes_[items_[i]];
-    centres.include(Vec3{centre_of(box, 0), centre_of(box, 1), centre_of(box, 2)});
-  }
-  return centres.longest_axis();
 }
 
 }  // namespace affskel::core

@@ -54,7 +54,6 @@ class BoxTree {
   };
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
-  std::size_t longest_axis(std::uint32_t first, std::uint32_t count) const;
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> items_;
