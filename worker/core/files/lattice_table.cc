@@ -8,18 +8,9 @@
 #include "core/files/vtkhdf_grid.h"
 
 namespace affskel::core {
-
-class LatticeTable::Output {
- public:
-  virtual ~Output() = default;
-  virtual void put(const LatticePlace& at, std::span<const double> values) = 0;
-  virtual void put_outside(const std::array<std::int64_t, 3>&, std::size_t, double) {}
-  virtual void finish() {}
-};
-
 namespace {
 
-class TextOutput : public LatticeTable::Output {
+class TextOutput : public LatticeTable {
  public:
   TextOutput(base::AtomicFile& file, char separator, bool whole, const LatticeGrid& lattice,
              const std::vector<LatticeColumn>& columns)
@@ -71,7 +62,7 @@ LatticeGrid grid_around(const LatticeGrid& lattice) {
   return grid;
 }
 
-class GridOutput : public LatticeTable::Output {
+class GridOutput : public LatticeTable {
  public:
   GridOutput(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice,
              const std::vector<LatticeColumn>& columns, const FileFacts& facts)
@@ -145,10 +136,12 @@ class GridOutput : public LatticeTable::Output {
   std::uint32_t written_ = 0;  // planes
 };
 
-std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, base::AtomicFile& file,
-                                                  const LatticeGrid& lattice,
-                                                  const std::vector<LatticeColumn>& columns,
-                                                  const FileFacts& facts) {
+}  // namespace
+
+std::unique_ptr<LatticeTable> make_lattice_table(FileFormat format, base::AtomicFile& file,
+                                                 const LatticeGrid& lattice,
+                                                 const std::vector<LatticeColumn>& columns,
+                                                 const FileFacts& facts) {
   check_places(format, lattice);
   switch (format) {
     case FileFormat::kCsv: {
@@ -166,26 +159,6 @@ std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, base::Atomi
     default:
       throw std::logic_error("no writer of sample points for " + std::string(extension_of(format)));
   }
-}
-
-}  // namespace
-
-LatticeTable::LatticeTable(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice,
-                           const std::vector<LatticeColumn>& columns, const FileFacts& facts)
-    : output_(make_output(format, file, lattice, columns, facts)) {}
-
-LatticeTable::~LatticeTable() = default;
-
-void LatticeTable::put(const LatticePlace& at, std::span<const double> values) {
-  output_->put(at, values);
-}
-
-void LatticeTable::put_outside(const std::array<std::int64_t, 3>& at, std::size_t component, double value) {
-  output_->put_outside(at, component, value);
-}
-
-void LatticeTable::finish() {
-  output_->finish();
 }
 
 void check_places(FileFormat format, const LatticeGrid& lattice) {
