@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/base/affine_map.h"
 #include "core/files/base64.h"
 #include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 // glTF 2.0 (Khronos, ISO/IEC 12113): a JSON text with numbers in buffers.  A scene's nodes place meshes by affine
 // maps; a mesh has primitives, each with an accessor for its positions and mostly one for its indices.  What is said

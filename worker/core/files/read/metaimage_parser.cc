@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/coding.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/voxel_numbers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/coding.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"

@@ -12,6 +12,7 @@
 #include "core/files/read/voxel_parsers.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
+#include "core/text/text_rows.h"
 #include "core/voxels/isosurface.h"
 
 namespace affskel::core {
@@ -45,6 +46,23 @@ Parser parser_for(std::string_view extension) {
   throw CoreError(CoreError::Code::kBadInput,
                   "not a known kind of file; points are read from .csv .ply .off .xyz .vtp .dat, "
                   "surfaces from .off .ply .obj .stl .vtp .glb .gltf .3mf");
+}
+
+// Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal, normals, Normal or
+// Normals, with _a or _b behind it or not (Normals_x, normal_a_x); the same of y and z.
+bool is_normal_column(std::string_view name) {
+  const auto take = [&name](std::string_view start) {
+    const bool found = name.starts_with(start);
+    if (found) name.remove_prefix(start.size());
+    return found;
+  };
+  const auto is_axis = [](char c) { return c == 'x' || c == 'y' || c == 'z'; };
+  if (take("normal") || take("Normal")) {
+    take("s");
+    if (!take("_a")) take("_b");
+    return name.size() == 2 && name[0] == '_' && is_axis(name[1]);
+  }
+  return name.size() >= 2 && name[0] == 'n' && is_axis(name[1]) && (name.size() == 2 || name[2] == '_');
 }
 
 void check_finite(const ShapeFile& file) {
@@ -132,21 +150,6 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, con
   return {kind == ".off" ? "binary off" : std::string(kind.substr(1)), false, std::move(shape.off), {}};
 }
 
-bool is_normal_column(std::string_view name) {
-  const auto take = [&name](std::string_view start) {
-    const bool found = name.starts_with(start);
-    if (found) name.remove_prefix(start.size());
-    return found;
-  };
-  const auto is_axis = [](char c) { return c == 'x' || c == 'y' || c == 'z'; };
-  if (take("normal") || take("Normal")) {
-    take("s");
-    if (!take("_a")) take("_b");
-    return name.size() == 2 && name[0] == '_' && is_axis(name[1]);
-  }
-  return name.size() >= 2 && name[0] == 'n' && is_axis(name[1]) && (name.size() == 2 || name[2] == '_');
-}
-
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line) {
   Mesh& mesh = file.off.mesh;
@@ -185,11 +188,6 @@ void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, co
     file.segments.push_back(
         {static_cast<std::uint32_t>(vertices[i - 1]), static_cast<std::uint32_t>(vertices[i])});
   }
-}
-
-void fail_at(std::uint64_t line, const std::string& message) {
-  const std::string where = line > 0 ? "line " + std::to_string(line) + ": " : std::string();
-  throw CoreError(CoreError::Code::kBadInput, where + message, line);
 }
 
 }  // namespace affskel::core

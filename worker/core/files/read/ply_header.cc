@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 
-#include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {

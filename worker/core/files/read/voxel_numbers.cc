@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {

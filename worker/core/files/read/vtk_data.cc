@@ -13,7 +13,6 @@
 
 #include "base/coding.h"
 #include "core/files/base64.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {

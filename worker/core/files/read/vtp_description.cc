@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/xml_reader.h"
 #include "core/text/text_rows.h"
 

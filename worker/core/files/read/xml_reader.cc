@@ -8,7 +8,7 @@
 #include <new>
 #include <set>
 
-#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
