@@ -25,11 +25,14 @@ std::size_t voxels_of(const std::array<std::size_t, 3>& size) {
   return count;
 }
 
-void require_bytes(std::size_t voxels, std::size_t given, std::size_t bytes_per_voxel) {
-  if (given / bytes_per_voxel < voxels) {
+base::PackedNumbers numbers_of(std::size_t voxels, std::string_view seen, std::optional<std::string> own,
+                               const base::NumberKind& kind, bool big_endian) {
+  const std::size_t given = own ? own->size() : seen.size();
+  if (given / kind.bytes < voxels)
     fail_at(
         0, std::to_string(voxels) + " voxels announced, but only " + std::to_string(given) + " bytes follow");
-  }
+  if (own) return {std::move(*own), kind, big_endian};
+  return {seen, kind, big_endian};
 }
 
 std::array<std::size_t, 3> sizes_of(const std::vector<double>& numbers, std::uint64_t line) {
