@@ -13,6 +13,8 @@ namespace affskel::core {
 
 /// Four numbers that are worked on at once (a vector type of GCC and Clang).
 using Four = float __attribute__((vector_size(16)));
+/// Whether, of each of four: -1 or 0.
+using FourAnswers = int __attribute__((vector_size(16)));
 
 /// Boxes of four items side by side: centres and half sides, by coordinate.  In single precision; sides are
 /// rounded up.
@@ -34,6 +36,11 @@ class PlaneHeights {
 
   Four middle(const FourBoxes& boxes) const {
     return boxes.centre[0] * d_[0] + boxes.centre[1] * d_[1] + boxes.centre[2] * d_[2] - offset_;
+  }
+  /// Whether the plane may pass boxes, or the segments between their lowest and highest corners.
+  FourAnswers passes(const FourBoxes& boxes) const { return is_within(middle(boxes), reach(boxes)); }
+  FourAnswers passes_segments(const FourBoxes& boxes) const {
+    return is_within(middle(boxes), reach_of_segment(boxes));
   }
   /// How far the segment between its lowest and highest corner reaches from its middle at most.
   Four reach_of_segment(const FourBoxes& boxes) const {
@@ -78,6 +85,10 @@ class PlaneHeights {
   }
 
  private:
+  static FourAnswers is_within(const Four& middle, const Four& reach) {
+    return (middle <= reach) & (middle >= -reach);
+  }
+
   std::array<float, 3> d_, size_;
   float offset_;
 };
