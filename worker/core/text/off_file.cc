@@ -12,10 +12,11 @@
 namespace affskel::core {
 namespace {
 
+constexpr std::uint64_t kMaxElements = std::uint64_t{1} << 28;
+
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const ReadOffOptions& options)
-      : rows_(bytes), options_(options), stop_(options.context) {}
+  OffReader(std::string_view bytes, const ReadOffOptions& options) : rows_(bytes), stop_(options.context) {}
 
   OffMesh run() {
     read_header();
@@ -85,10 +86,10 @@ class OffReader {
 
   // Refuses what cannot be true before anything is allocated; a row has at least min_bytes bytes.
   void check_count(std::uint64_t count, const char* what, std::uint64_t min_bytes) const {
-    if (count > options_.max_elements) {
+    if (count > kMaxElements) {
       throw CoreError(CoreError::Code::kLimit,
                       "line " + std::to_string(rows_.line()) + ": " + std::to_string(count) + " " + what +
-                          " announced, at most " + std::to_string(options_.max_elements) + " are supported",
+                          " announced, at most " + std::to_string(kMaxElements) + " are supported",
                       rows_.line());
     }
     if (count > rows_.bytes_left() / min_bytes + 1) {
@@ -213,7 +214,6 @@ class OffReader {
   static constexpr std::uint64_t kStepsPerRow = 64;
 
   TextRows rows_;
-  ReadOffOptions options_;
   StopCheck stop_;
   bool texture_ = false, colour_ = false, normal_ = false, homogeneous_ = false;
   std::size_t unpromised_ = 0;  // numbers per vertex that the header does not promise
