@@ -350,10 +350,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   find_distances(solid, lattice, curve);
   measure(solid, lattice, curve, options.context);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
-  std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
-  for (const Segment& segment : curve.segments)
-    for (const std::uint32_t v : segment) ++degree[v];
-  curve.ends = static_cast<std::uint32_t>(std::count(degree.begin(), degree.end(), 1));
+  const Adjacency beside = neighbours(curve.vertices.size(), curve.segments);
+  for (std::size_t v = 0; v < beside.size(); ++v) curve.ends += beside[v].size() == 1;
   return std::move(curve);
 }
 

@@ -373,10 +373,6 @@ class SolidBuilder {
 
 }  // namespace
 
-double Solid::scale() const {
-  return std::ldexp(1.0, exponent);
-}
-
 Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
                  const std::vector<std::uint32_t>& triangle_line) {
   std::vector<std::uint32_t> all(mesh.triangles.size());

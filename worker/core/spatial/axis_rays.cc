@@ -1,6 +1,5 @@
 #include "core/spatial/axis_rays.h"
 
-#include <cstddef>
 #include <limits>
 
 #include "core/spatial/ray_crossing.h"

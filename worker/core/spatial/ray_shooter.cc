@@ -1,6 +1,5 @@
 #include "core/spatial/ray_shooter.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace affskel::core {

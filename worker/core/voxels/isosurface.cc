@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/mesh/box.h"
+#include "core/mesh/map_mesh.h"
 #include "core/shapes/edge_collapse.h"
 #include "core/shapes/implicit_mesh.h"
 
@@ -225,9 +226,7 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
     found.mesh = collapse_edges(found.mesh, options.max_triangles, options.context);
     for (Vec3& p : found.mesh.points) p = p - shift;
   }
-  for (Vec3& p : found.mesh.points) p = image.place(p);
-  if (determinant(image.place) < 0)
-    for (Triangle& t : found.mesh.triangles) std::swap(t[1], t[2]);
+  found.mesh = map_mesh(image.place, found.mesh);
   return found;
 }
 

@@ -78,9 +78,8 @@ void check_finite(const ShapeFile& file) {
 }
 
 bool holds_mesh(std::string_view extension) {
-  constexpr std::array<std::string_view, 10> kMeshes = {".off", ".ply",  ".obj", ".stl", ".vtp",
-                                                        ".glb", ".gltf", ".3mf", ".xyz", ".csv"};
-  return std::find(kMeshes.begin(), kMeshes.end(), extension) != kMeshes.end();
+  const auto is_it = [&](const auto& known) { return known.first == extension; };
+  return extension != ".dat" && std::any_of(kParsers.begin(), kParsers.end(), is_it);
 }
 
 // The extension that the content stands for; empty where it says nothing, as of rows of numbers.
