@@ -11,6 +11,7 @@ TEST(Box, HoldsItsPointsTightly) {
   EXPECT_EQ(box.low, (Vec3{-1, -2, 3}));
   EXPECT_EQ(box.high, (Vec3{1, 5, 9}));
   EXPECT_EQ(box.sides(), (Vec3{2, 7, 6}));
+  EXPECT_EQ(box.middle(), (Vec3{0, 1.5, 6}));
   EXPECT_EQ(box.longest_axis(), 1U);
   EXPECT_EQ(box.longest_side(), 7);
 }
