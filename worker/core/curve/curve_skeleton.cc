@@ -9,7 +9,6 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
-#include "core/base/unit.h"
 #include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"

@@ -45,14 +45,9 @@ class Handle {
   Handle(hid_t id, Close close, const char* what) : id_(id), close_(close) {
     if (id_ < 0) hdf5_failed(what);
   }
-  ~Handle() { release(); }
+  ~Handle() { close_(id_); }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  herr_t release() {
-    const hid_t id = id_;
-    id_ = -1;
-    return id < 0 ? 0 : close_(id);
-  }
   operator hid_t() const { return id_; }
 
  private:

@@ -287,22 +287,6 @@ bool may_search(const Plan& plan, const LatticeOptions& options) {
   return options.spacing == 0 && plan.estimate <= kRounding * static_cast<double>(options.max_points);
 }
 
-}  // namespace
-
-Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads,
-                     ExecutionContext* context) {
-  for (std::uint32_t n : grid.dims) {
-    if (n == 0 || n > (1U << 30))
-      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
-  }
-  LatticeOptions options;
-  options.threads = threads;
-  options.context = context;
-  return LatticeBuilder(solid, grid, options).run();
-}
-
-namespace {
-
 Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
   const Plan plan = fitting_plan(solid, box, options, spacing);
   Lattice lattice = LatticeBuilder(solid, plan.grid, options).run();
@@ -316,6 +300,18 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
 }
 
 }  // namespace
+
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads,
+                     ExecutionContext* context) {
+  for (std::uint32_t n : grid.dims) {
+    if (n == 0 || n > (1U << 30))
+      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
+  }
+  LatticeOptions options;
+  options.threads = threads;
+  options.context = context;
+  return LatticeBuilder(solid, grid, options).run();
+}
 
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);

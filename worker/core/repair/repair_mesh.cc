@@ -99,6 +99,7 @@ class Mending {
       result_.bulge += hole.bulge;
       const Hole*& seen = hole.filled ? longest : longest_left;
       if (seen == nullptr) seen = &hole;
+      rims_.push_back(hole.point);
     }
     if (count > 0) {
       result_.longest_filled = longest->length;
@@ -120,7 +121,6 @@ class Mending {
     }
     result_.filled_share = added / (area + added);
     result_.mesh = std::move(filled.mesh);
-    for (const Hole& hole : filled.holes) rims_.push_back(hole.point);
   }
 
   // Triangles that hang together by edges.
