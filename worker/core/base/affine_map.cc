@@ -45,17 +45,11 @@ AffineMap translation(const Vec3& shift) {
 
 AffineMap rotation(int axis, double degrees) {
   const auto [sine, cosine] = plain_sin_cos_degrees(degrees);
+  const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
   AffineMap map;
-  switch (axis) {
-    case 0:
-      map.rows = {Vec3{1, 0, 0}, Vec3{0, cosine, -sine}, Vec3{0, sine, cosine}};
-      break;
-    case 1:
-      map.rows = {Vec3{cosine, 0, sine}, Vec3{0, 1, 0}, Vec3{-sine, 0, cosine}};
-      break;
-    default:
-      map.rows = {Vec3{cosine, -sine, 0}, Vec3{sine, cosine, 0}, Vec3{0, 0, 1}};
-  }
+  map.rows[u][u] = map.rows[v][v] = cosine;
+  map.rows[u][v] = -sine;
+  map.rows[v][u] = sine;
   return map;
 }
 
