@@ -77,6 +77,15 @@ void check_finite(const ShapeFile& file) {
   }
 }
 
+std::uint32_t known_vertex(const Mesh& mesh, std::int64_t vertex, const std::string& place,
+                           std::uint64_t line) {
+  const auto known = static_cast<std::int64_t>(mesh.points.size());
+  if (vertex < 0 || vertex >= known)
+    fail_at(line,
+            place + " uses a vertex that does not exist (" + std::to_string(known) + " vertices are known)");
+  return static_cast<std::uint32_t>(vertex);
+}
+
 bool holds_mesh(std::string_view extension) {
   const auto is_it = [&](const auto& known) { return known.first == extension; };
   return extension != ".dat" && std::any_of(kParsers.begin(), kParsers.end(), is_it);
@@ -156,13 +165,7 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
     fail_at(line, place + " has " + base::counted(corners.size(), "corner") + ", needs 3");
   }
   std::vector<std::uint32_t> indices;
-  for (const std::int64_t corner : corners) {
-    if (corner < 0 || static_cast<std::uint64_t>(corner) >= mesh.points.size()) {
-      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(mesh.points.size()) +
-                        " vertices are known)");
-    }
-    indices.push_back(static_cast<std::uint32_t>(corner));
-  }
+  for (const std::int64_t corner : corners) indices.push_back(known_vertex(mesh, corner, place, line));
   std::vector<std::uint32_t> sorted = indices;
   std::sort(sorted.begin(), sorted.end());
   if (indices.size() > 3 && std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
@@ -177,15 +180,11 @@ void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, co
                   std::uint64_t line) {
   if (vertices.size() < 2)
     fail_at(line, place + " has " + base::counted(vertices.size(), "vertex", "vertices") + ", needs 2");
-  const auto known = static_cast<std::int64_t>(file.mesh().points.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i] < 0 || vertices[i] >= known) {
-      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(known) +
-                        " vertices are known)");
-    }
-    if (i == 0 || vertices[i] == vertices[i - 1]) continue;
-    file.segments.push_back(
-        {static_cast<std::uint32_t>(vertices[i - 1]), static_cast<std::uint32_t>(vertices[i])});
+  std::uint32_t before = known_vertex(file.mesh(), vertices[0], place, line);
+  for (const std::int64_t vertex : vertices) {
+    const std::uint32_t at = known_vertex(file.mesh(), vertex, place, line);
+    if (at != before) file.segments.push_back({before, at});
+    before = at;
   }
 }
 

@@ -1,7 +1,6 @@
 // PLY (Turk 1994): a text header that declares elements with typed properties, then their values in the
 // same order, as text (one row per entry) or as bytes of either order.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -186,7 +185,7 @@ class PlyReader {
 
   void read_vertex(const PlyElement& element, const std::vector<std::size_t>& target, std::uint64_t index) {
     values_.begin(element.name, index);
-    std::array<double, 3> at{};
+    Vec3 at;
     for (std::size_t p = 0; p < target.size(); ++p) {
       const double value = values_.next(*element.properties[p].type);
       if (target[p] >= 3) {
@@ -199,7 +198,7 @@ class PlyReader {
       at[target[p]] = value;
     }
     values_.end();
-    file_.off.mesh.points.push_back({at[0], at[1], at[2]});
+    file_.off.mesh.points.push_back(at);
     if (values_.line() > 0) file_.off.vertex_line.push_back(static_cast<std::uint32_t>(values_.line()));
   }
 
