@@ -19,6 +19,7 @@
 #include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
+#include "core/curve/line_ends.h"
 #include "core/curve/pruned_lines.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
@@ -225,12 +226,8 @@ std::vector<double> areas_of(const LimbSections& sections, std::span<const Vec3>
   std::vector<double> areas(places.size(), 0);
   for (const auto& line : polylines(places.size(), segments)) {
     for (std::size_t n = 0; n < line.size(); ++n) {
-      const Vec3& at = places[line[n]];
-      std::size_t low = n, high = n;
-      while (low > 0 && norm(places[line[low]] - at) < balls[line[n]]) --low;
-      while (high + 1 < line.size() && norm(places[line[high]] - at) < balls[line[n]]) ++high;
-      const Vec3 across = unit(places[line[high]] - places[line[low]]);
-      if (across != Vec3{}) areas[line[n]] = sections.area(at, across);
+      const Vec3 across = direction_in_ball(places, line, n, balls[line[n]]);
+      if (across != Vec3{}) areas[line[n]] = sections.area(places[line[n]], across);
     }
   }
   return areas;

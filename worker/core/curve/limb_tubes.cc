@@ -8,6 +8,7 @@
 #include "core/base/basis.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
+#include "core/curve/line_ends.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
@@ -99,23 +100,14 @@ LimbTubes::Limb LimbTubes::cut(std::vector<std::uint32_t> line) {
 // The planes turn with the line, and not about it, so that outlines can be compared.
 void LimbTubes::add_rings(const EllipseAt& ellipse_at, Limb& limb) const {
   const auto& line = limb.vertices;
-  const auto along = [&](std::size_t n) {
-    std::size_t low = n, high = n;
-    const auto is_near = [&](std::size_t k) {
-      return norm(places_[line[k]] - places_[line[n]]) < ball_[line[n]];
-    };
-    while (low > 0 && is_near(low)) --low;
-    while (high + 1 < line.size() && is_near(high)) ++high;
-    return unit(places_[line[high]] - places_[line[low]]);
-  };
   Vec3 before;
   for (std::size_t n = 0; n < line.size(); ++n) {
-    const Vec3 t = along(n);
+    const double ball = ball_[line[n]];
+    const Vec3 t = direction_in_ball(places_, line, n, ball);
     Vec3 u = unit(before - dot(before, t) * t);
     if (u == Vec3{}) u = unit_beside(t);
     before = u;
     Ring ring{u, cross(t, u), {}};
-    const double ball = ball_[line[n]];
     ring.ellipse = ellipse_at(places_[line[n]], ring.u, ring.v, LimbSections::kSeen * ball);
     ring.thickness = std::clamp(ring.ellipse.radius(), ball, kRoundest * ball);
     limb.rings.push_back(ring);
