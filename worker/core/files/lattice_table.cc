@@ -12,22 +12,18 @@ namespace {
 
 class TextOutput : public LatticeTable {
  public:
-  TextOutput(base::AtomicFile& file, char separator, bool whole, const LatticeGrid& lattice,
+  // @param csv else .dat.
+  TextOutput(base::AtomicFile& file, bool csv, const LatticeGrid& lattice,
              const std::vector<LatticeColumn>& columns)
-      : file_(file), separator_(separator), lattice_(lattice) {
-    for (const LatticeColumn& column : columns) {
-      const bool shown = column.in_text && (whole || column.type == GridType::kFloat64);
-      shown_.insert(shown_.end(), column.components.size(), shown);
-    }
-  }
-
-  void write_header(const std::vector<LatticeColumn>& columns) {
+      : file_(file), separator_(csv ? ',' : ' '), lattice_(lattice) {
     std::string header = "x,y,z";
     for (const LatticeColumn& column : columns) {
-      if (!column.in_text) continue;
+      const bool shown = column.in_text && (csv || column.type == GridType::kFloat64);
+      shown_.insert(shown_.end(), column.components.size(), shown);
+      if (!shown) continue;
       for (const std::string& component : column.components) header += "," + component;
     }
-    file_.write(header + "\n");
+    if (csv) file_.write(header + "\n");
   }
 
   void put(const LatticePlace& at, std::span<const double> values) override {
@@ -144,13 +140,9 @@ std::unique_ptr<LatticeTable> make_lattice_table(FileFormat format, base::Atomic
                                                  const FileFacts& facts) {
   check_places(format, lattice);
   switch (format) {
-    case FileFormat::kCsv: {
-      auto output = std::make_unique<TextOutput>(file, ',', true, lattice, columns);
-      output->write_header(columns);
-      return output;
-    }
+    case FileFormat::kCsv:
     case FileFormat::kDat:
-      return std::make_unique<TextOutput>(file, ' ', false, lattice, columns);
+      return std::make_unique<TextOutput>(file, format == FileFormat::kCsv, lattice, columns);
     case FileFormat::kVti:
     case FileFormat::kVts:
     case FileFormat::kVtkHdf:
