@@ -32,15 +32,11 @@ std::array<Vec3, 3> cofactors(const std::array<Vec3, 3>& rows) {
 }  // namespace
 
 AffineMap scaling(double x, double y, double z) {
-  AffineMap map;
-  map.rows = {Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
-  return map;
+  return {.rows = {Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}}};
 }
 
 AffineMap translation(const Vec3& shift) {
-  AffineMap map;
-  map.shift = shift;
-  return map;
+  return {.shift = shift};
 }
 
 AffineMap rotation(int axis, double degrees) {

@@ -307,10 +307,7 @@ Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threa
     if (n == 0 || n > (1U << 30))
       throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
   }
-  LatticeOptions options;
-  options.threads = threads;
-  options.context = context;
-  return LatticeBuilder(solid, grid, options).run();
+  return LatticeBuilder(solid, grid, {.threads = threads, .context = context}).run();
 }
 
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {

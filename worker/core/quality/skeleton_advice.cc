@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <numbers>
@@ -75,10 +74,8 @@ void add_on_few_points(const Lattice& lattice, Advice& advice) {
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
 std::string degrees(double opening) {
   const double o = std::clamp(opening, 0.0, 1.0);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f",
-                2 * plain_angle(std::sqrt(o), std::sqrt(1 - o)) * (180 / std::numbers::pi));
-  return text;
+  const double angle = 2 * plain_angle(std::sqrt(o), std::sqrt(1 - o)) * (180 / std::numbers::pi);
+  return std::to_string(std::lrint(angle));
 }
 
 // Whether lengths in the lattice's frame are not those of the mesh.

@@ -243,9 +243,7 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
 
 // What is whole may still be none: two triangles on each other, say.
 void take_volume(RepairedMesh& result, const RepairOptions& options) {
-  SolidOptions solid;
-  solid.check_self_intersections = false;
-  solid.context = options.context;
+  const SolidOptions solid{.check_self_intersections = false, .context = options.context};
   try {
     result.volume = make_solid(result.mesh, solid).volume;
   } catch (const CoreError& error) {

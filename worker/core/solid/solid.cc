@@ -333,11 +333,9 @@ class SolidBuilder {
   }
 
   void look_for_self_intersections() {
-    SelfIntersectionOptions options;
     // Folded noise has a few crossings per triangle.  More could fill the memory, and would tell nothing new.
-    options.max_pairs = 32 * solid_.mesh.triangles.size();
-    options.threads = options_.threads;
-    options.context = options_.context;
+    const SelfIntersectionOptions options{32 * solid_.mesh.triangles.size(), options_.threads,
+                                          options_.context};
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;

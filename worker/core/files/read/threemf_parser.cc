@@ -41,15 +41,12 @@ double number(const XmlElement& element, const char* name) {
 
 // "m00 m01 m02 m10 ... m32" of row vectors: x' = m00 x + m10 y + m20 z + m30.
 AffineMap map_of(const XmlElement& element) {
-  AffineMap map;
   const std::string text = element.attribute("transform");
-  if (text.empty()) return map;
+  if (text.empty()) return {};
   TextRows row(text);
   if (!row.next() || row.words().size() != 12) fail_at(element.line, "a transform needs 12 numbers");
   const auto m = [&](std::size_t i) { return parse_finite(row.words()[i], element.line, "transform"); };
-  map.rows = {Vec3{m(0), m(3), m(6)}, Vec3{m(1), m(4), m(7)}, Vec3{m(2), m(5), m(8)}};
-  map.shift = {m(9), m(10), m(11)};
-  return map;
+  return {{Vec3{m(0), m(3), m(6)}, Vec3{m(1), m(4), m(7)}, Vec3{m(2), m(5), m(8)}}, {m(9), m(10), m(11)}};
 }
 
 class Model final : public XmlHandler {

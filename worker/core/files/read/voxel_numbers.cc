@@ -60,11 +60,9 @@ std::string read_numbers_beside(const std::string& name, std::uint64_t line, con
 }
 
 AffineMap place_of(const std::vector<Vec3>& steps, const Vec3& origin) {
-  AffineMap map;
-  map.rows = {Vec3{steps[0].x, steps[1].x, steps[2].x}, Vec3{steps[0].y, steps[1].y, steps[2].y},
-              Vec3{steps[0].z, steps[1].z, steps[2].z}};
-  map.shift = origin;
-  return map;
+  return {{Vec3{steps[0].x, steps[1].x, steps[2].x}, Vec3{steps[0].y, steps[1].y, steps[2].y},
+           Vec3{steps[0].z, steps[1].z, steps[2].z}},
+          origin};
 }
 
 }  // namespace affskel::core
