@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string_view>
 
 #include "client/artifacts/record_decoder.h"
@@ -11,7 +12,7 @@ namespace affskel::client {
 /// core::LatticeTable with the column `H` (0 outside).
 class DivergenceWriter {
  public:
-  /// `file` and `points` must outlive it.  @throws as core::LatticeTable, also from the others.
+  /// `file` and `points` must outlive it.  @throws as core::make_lattice_table(), also from the others.
   DivergenceWriter(core::FileFormat format, base::AtomicFile& file, const LatticePoints& points,
                    const core::FileFacts& facts);
 
@@ -21,7 +22,7 @@ class DivergenceWriter {
   void finish();
 
  private:
-  core::LatticeTable table_;
+  std::unique_ptr<core::LatticeTable> table_;
   RecordDecoder values_;
 };
 

@@ -1,9 +1,7 @@
 #include "client/base/spots.h"
 
-#include <optional>
-
-#include "client/base/mesh_box.h"
 #include "core/base/disjoint_sets.h"
+#include "core/mesh/box.h"
 
 namespace affskel::client {
 namespace {
@@ -22,17 +20,14 @@ core::DisjointSets pieces_of(const v1::TriangleMesh& sheet) {
 
 std::vector<std::uint32_t> spots_of(const v1::TriangleMesh& sheet, double size) {
   core::DisjointSets pieces = pieces_of(sheet);
-  std::vector<std::optional<Box>> boxes(static_cast<std::size_t>(sheet.xyz_size() / 3));
+  std::vector<core::Box> boxes(static_cast<std::size_t>(sheet.xyz_size() / 3));
   for (std::uint32_t v = 0; v < boxes.size(); ++v) {
     const int first = 3 * static_cast<int>(v);
-    const core::Vec3 at{sheet.xyz(first), sheet.xyz(first + 1), sheet.xyz(first + 2)};
-    std::optional<Box>& box = boxes[pieces.find(v)];
-    if (!box) box = Box{at, at};
-    box->add(at);
+    boxes[pieces.find(v)].include(core::Vec3{sheet.xyz(first), sheet.xyz(first + 1), sheet.xyz(first + 2)});
   }
   std::vector<std::uint32_t> spots;
   for (std::uint32_t v = 0; v < boxes.size(); ++v)
-    if (boxes[v] && boxes[v]->longest_side() < size) spots.push_back(v);
+    if (pieces.find(v) == v && boxes[v].longest_side() < size) spots.push_back(v);
   return spots;
 }
 

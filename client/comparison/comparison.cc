@@ -6,10 +6,10 @@
 
 #include "base/number_text.h"
 #include "client/base/error.h"
-#include "client/base/mesh_box.h"
 #include "client/files/read/input_file.h"
 #include "client/files/read/read_shape.h"
 #include "core/base/error.h"
+#include "core/mesh/box.h"
 #include "core/quality/interior_points.h"
 #include "core/solid/surface_samples.h"
 
@@ -23,11 +23,8 @@ constexpr double kMinSurface = 1e-60, kMaxSurface = 1e60;
 constexpr const char* kScaleFirst = "; scale the files first";
 
 double longest_side(std::initializer_list<const std::vector<core::Vec3>*> sets) {
-  const core::Vec3& first = sets.begin()[0]->front();
-  Box box{first, first};
-  for (const std::vector<core::Vec3>* set : sets) {
-    for (const core::Vec3& point : *set) box.add(point);
-  }
+  core::Box box;
+  for (const std::vector<core::Vec3>* set : sets) box.include(core::box_of(*set));
   return box.longest_side();
 }
 
@@ -182,7 +179,7 @@ Comparison compare_files(const ComparisonOptions& options) {
     const std::vector<core::Vec3> inner = inner_points_of(solid, options.solid);
     chance =
         ChanceLevel{inner.size(), core::DistanceCurve(inner, a.points), core::DistanceCurve(inner, b.points)};
-    if (radius == 0) radius = voxel_diagonal(Box{solid.bbox_min, solid.bbox_max}.longest_side());
+    if (radius == 0) radius = voxel_diagonal(core::Box{solid.bbox_min, solid.bbox_max}.longest_side());
   }
   if (radius == 0) radius = default_radius(side);
   core::Similarity curves = core::similarity(a.points, b.points);

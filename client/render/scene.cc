@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "client/base/error.h"
-#include "client/base/mesh_box.h"
 #include "client/base/spots.h"
 #include "client/render/arrangement.h"
 #include "client/render/labels.h"
 #include "client/render/legend.h"
 #include "client/render/panel.h"
 #include "client/render/stroke_text.h"
+#include "core/mesh/box.h"
 
 namespace affskel::client {
 namespace {
@@ -49,17 +48,11 @@ std::string view_name(const std::string& camera, const View& view) {
 Shown shown_by(const Camera& camera, const RenderInput& input) {
   Shown shown{"", view_of(camera, input.stance), {}, 0, 0};
   shown.name = view_name(camera.name, shown.view);
-  std::optional<Box> box;
-  for (const Vec3& p : input.mesh.points) {
-    const Vec3 seen{core::dot(shown.view.right, p), core::dot(shown.view.up, p),
-                    core::dot(shown.view.toward, p)};
-    if (!box) box = Box{seen, seen};
-    box->add(seen);
-  }
-  const Vec3 middle = box->centre();
-  shown.centre = middle.x * shown.view.right + (middle.y * shown.view.up + middle.z * shown.view.toward);
-  shown.width = box->size().x;
-  shown.height = box->size().y;
+  const core::Matrix3 axes{shown.view.right, shown.view.up, shown.view.toward};
+  const core::Box box = core::box_of(input.mesh.points, axes);
+  shown.centre = axes * box.middle();
+  shown.width = box.sides().x;
+  shown.height = box.sides().y;
   return shown;
 }
 

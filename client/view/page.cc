@@ -11,7 +11,6 @@
 #include "client/artifacts/solid_parts.h"
 #include "client/base/colour.h"
 #include "client/base/error.h"
-#include "client/base/mesh_box.h"
 #include "client/base/scale_words.h"
 #include "client/base/spots.h"
 #include "client/text/markup_text.h"
@@ -21,6 +20,7 @@
 #include "client/view/resources.h"
 #include "client/view/sheet_pieces.h"
 #include "core/files/base64.h"
+#include "core/mesh/box.h"
 #include "wire/sha256.h"
 #include "wire/version.h"
 
@@ -47,8 +47,8 @@ struct Scale {
 };
 
 // Vertices to 1/65535 of the box, which no screen shows.
-std::vector<std::uint16_t> steps_in(const Box& box, const std::vector<Vec3>& points) {
-  const std::array<double, 3> low = components(box.low), size = components(box.size());
+std::vector<std::uint16_t> steps_in(const core::Box& box, const std::vector<Vec3>& points) {
+  const std::array<double, 3> low = components(box.low), size = components(box.sides());
   std::vector<std::uint16_t> steps;
   steps.reserve(3 * points.size());
   for (const Vec3& point : points) {
@@ -70,14 +70,14 @@ void add_corners(PageArrays& arrays, const char* name, const std::vector<std::ui
   }
 }
 
-ordered_json add_mesh(PageArrays& arrays, const core::Mesh& mesh, const Box& box, const Scale& scale) {
+ordered_json add_mesh(PageArrays& arrays, const core::Mesh& mesh, const core::Box& box, const Scale& scale) {
   std::vector<std::uint32_t> corners;
   corners.reserve(3 * mesh.triangles.size());
   for (const core::Triangle& triangle : mesh.triangles)
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   arrays.add("meshSteps", "u16", steps_in(box, mesh.points));
   add_corners(arrays, "meshCorners", corners, mesh.points.size());
-  const std::array<double, 3> size = components(box.size());
+  const std::array<double, 3> size = components(box.sides());
   ordered_json axes = ordered_json::array();
   for (std::size_t a = 0; a < 3; ++a) {
     std::array<double, 3> axis{};
@@ -88,7 +88,7 @@ ordered_json add_mesh(PageArrays& arrays, const core::Mesh& mesh, const Box& box
 }
 
 // The eroded solids, in the mesh's grid: they lie in it.
-ordered_json add_eroded(PageArrays& arrays, const ViewModel& model, const Box& box) {
+ordered_json add_eroded(PageArrays& arrays, const ViewModel& model, const core::Box& box) {
   ordered_json facts = ordered_json::array();
   for (std::size_t level = 0; level < model.eroded.size(); ++level) {
     const v1::TriangleMesh& surface = model.eroded[level];
@@ -239,9 +239,9 @@ ordered_json pieces_of(const ViewModel& model) {
   return pieces;
 }
 
-ordered_json facts_of(const ViewModel& model, const Box& box, const Scale& scale) {
+ordered_json facts_of(const ViewModel& model, const core::Box& box, const Scale& scale) {
   const v1::PreparedSummary& prepared = model.job.prepared();
-  const Vec3 size = box.size();
+  const Vec3 size = box.sides();
   return {{"name", model.job.name()},
           {"job", model.job.id()},
           {"operator", model.operator_name},
@@ -265,8 +265,8 @@ ordered_json facts_of(const ViewModel& model, const Box& box, const Scale& scale
 // @param unit of all models, mesh units per page unit.
 ordered_json add_model(PageArrays& arrays, const ViewModel& model, double unit) {
   arrays.begin_model();
-  const Box box = mesh_box(model.mesh);
-  const Scale scale{box.centre(), unit};
+  const core::Box box = core::box_of(model.mesh.points);
+  const Scale scale{box.middle(), unit};
   ordered_json facts = facts_of(model, box, scale);
   facts["meshGrid"] = add_mesh(arrays, model.mesh, box, scale);
   facts["pointGrid"] = add_points(arrays, model, scale);
@@ -368,7 +368,7 @@ std::string view_page(const ViewInput& input) {
   for (const ViewModel& model : input.models) {
     if (model.mesh.triangles.empty())
       throw ClientError(ExitCode::kBadInput, "the mesh has no triangles to draw");
-    longest = std::max(longest, mesh_box(model.mesh).longest_side());
+    longest = std::max(longest, core::box_of(model.mesh.points).longest_side());
   }
   const double unit = 0.5 * longest;
   ordered_json facts = page_facts(input, unit);

@@ -8,7 +8,7 @@
 
 #include "base/number_text.h"
 #include "client/base/error.h"
-#include "client/base/mesh_box.h"
+#include "core/mesh/box.h"
 
 namespace affskel::client {
 namespace {
@@ -17,21 +17,11 @@ using core::Vec3;
 
 constexpr const char* kInstead = "; write .off, .ply, .obj or .vtp, which hold double precision";
 
-// The box round the corners of the triangles.
-Box extent_of(const core::Mesh& mesh) {
-  const Vec3& first = mesh.points[mesh.triangles.front()[0]];
-  Box extent{first, first};
-  for (const core::Triangle& t : mesh.triangles) {
-    for (const std::uint32_t corner : t) extent.add(mesh.points[corner]);
-  }
-  return extent;
-}
-
 std::string text_of(const Vec3& p) {
   return "(" + base::rounded(p.x, 9) + ", " + base::rounded(p.y, 9) + ", " + base::rounded(p.z, 9) + ")";
 }
 
-std::string text_of(const Box& extent) {
+std::string text_of(const core::Box& extent) {
   return "the surface reaches from " + text_of(extent.low) + " to " + text_of(extent.high);
 }
 
@@ -42,7 +32,7 @@ Vec3 single(const Vec3& p) {
 // Areas in units of the extent, so that they neither vanish nor overflow.
 class Areas {
  public:
-  explicit Areas(const Box& extent) {
+  explicit Areas(const core::Box& extent) {
     const double side = extent.longest_side();
     exponent_ = side > 0 ? -std::ilogb(side) : 0;
   }
@@ -59,7 +49,7 @@ class Areas {
   int exponent_;
 };
 
-void check_range(const Box& extent) {
+void check_range(const core::Box& extent) {
   constexpr double kMaxFloat = std::numeric_limits<float>::max();
   for (const Vec3& p : {extent.low, extent.high}) {
     for (int k = 0; k < 3; ++k) {
@@ -96,7 +86,7 @@ std::size_t count_spoilt(const core::Mesh& mesh, const Areas& area) {
 
 void check_fits_stl(const core::Mesh& mesh) {
   if (mesh.triangles.empty()) return;
-  const Box extent = extent_of(mesh);
+  const core::Box extent = core::box_of(mesh);
   check_range(extent);
   const std::size_t flat = count_spoilt(mesh, Areas(extent));
   if (flat == 0) return;

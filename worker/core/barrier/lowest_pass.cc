@@ -1,6 +1,7 @@
 #include "core/barrier/lowest_pass.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace affskel::core {
@@ -20,16 +21,7 @@ void LowestPass::reach(std::span<const float> values, std::uint32_t vertex) {
   if (seen_[vertex] == flood_) return;
   seen_[vertex] = flood_;
   shore_.push_back({values[vertex], vertex});
-  std::push_heap(shore_.begin(), shore_.end(),
-                 [](const ShoreVertex& a, const ShoreVertex& b) { return a.value > b.value; });
-}
-
-LowestPass::ShoreVertex LowestPass::lowest_of_shore() {
-  std::pop_heap(shore_.begin(), shore_.end(),
-                [](const ShoreVertex& a, const ShoreVertex& b) { return a.value > b.value; });
-  const ShoreVertex lowest = shore_.back();
-  shore_.pop_back();
-  return lowest;
+  std::push_heap(shore_.begin(), shore_.end(), std::greater<>());
 }
 
 float LowestPass::between(std::span<const float> values, std::uint32_t from, std::uint32_t to) {
@@ -40,10 +32,12 @@ float LowestPass::between(std::span<const float> values, std::uint32_t from, std
   shore_.clear();
   reach(values, from);
   for (float level = values[from];;) {
-    const ShoreVertex at = lowest_of_shore();
-    level = std::max(level, at.value);
-    if (at.vertex == to) return level;
-    for (const std::uint32_t next : graph_[at.vertex]) reach(values, next);
+    std::pop_heap(shore_.begin(), shore_.end(), std::greater<>());
+    const auto [value, vertex] = shore_.back();
+    shore_.pop_back();
+    level = std::max(level, value);
+    if (vertex == to) return level;
+    for (const std::uint32_t next : graph_[vertex]) reach(values, next);
   }
 }
 

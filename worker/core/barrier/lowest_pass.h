@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/edges.h"
@@ -26,17 +27,11 @@ class LowestPass {
   float between(std::span<const float> values, std::uint32_t from, std::uint32_t to);
 
  private:
-  struct ShoreVertex {
-    float value;
-    std::uint32_t vertex;
-  };
-
   void reach(std::span<const float> values, std::uint32_t vertex);
-  ShoreVertex lowest_of_shore();
 
   const Adjacency& graph_;
-  std::vector<std::uint32_t> seen_;  // per vertex: the flood that reached it last
-  std::vector<ShoreVertex> shore_;   // a heap, the lowest first
+  std::vector<std::uint32_t> seen_;                     // per vertex: the flood that reached it last
+  std::vector<std::pair<float, std::uint32_t>> shore_;  // values and vertices: a heap, the lowest first
   std::uint32_t flood_ = 0;
 };
 

@@ -32,41 +32,26 @@ std::array<Vec3, 3> cofactors(const std::array<Vec3, 3>& rows) {
 }  // namespace
 
 AffineMap scaling(double x, double y, double z) {
-  AffineMap map;
-  map.rows = {Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
-  return map;
+  return {.rows = {Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}}};
 }
 
 AffineMap translation(const Vec3& shift) {
-  AffineMap map;
-  map.shift = shift;
-  return map;
+  return {.shift = shift};
 }
 
 AffineMap rotation(int axis, double degrees) {
   const auto [sine, cosine] = plain_sin_cos_degrees(degrees);
+  const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
   AffineMap map;
-  switch (axis) {
-    case 0:
-      map.rows = {Vec3{1, 0, 0}, Vec3{0, cosine, -sine}, Vec3{0, sine, cosine}};
-      break;
-    case 1:
-      map.rows = {Vec3{cosine, 0, sine}, Vec3{0, 1, 0}, Vec3{-sine, 0, cosine}};
-      break;
-    default:
-      map.rows = {Vec3{cosine, -sine, 0}, Vec3{sine, cosine, 0}, Vec3{0, 0, 1}};
-  }
+  map.rows[u][u] = map.rows[v][v] = cosine;
+  map.rows[u][v] = -sine;
+  map.rows[v][u] = sine;
   return map;
 }
 
 AffineMap shear(int to, int from, double factor) {
-  const auto entry = [&](int row, int column) {
-    return row == column ? 1.0 : row == to && column == from ? factor : 0.0;
-  };
   AffineMap map;
-  for (int row = 0; row < 3; ++row) {
-    map.rows[static_cast<std::size_t>(row)] = {entry(row, 0), entry(row, 1), entry(row, 2)};
-  }
+  map.rows[static_cast<std::size_t>(to)][from] = factor;
   return map;
 }
 
@@ -111,10 +96,9 @@ AffineMap inverse(const AffineMap& map) {
   const std::array<Vec3, 3> c = cofactors(rows);
   const double det = dot(rows[0], c[0]);
   AffineMap result;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     // The cofactors, transposed; adding 0 turns a negative zero into a plain one.
-    result.rows[static_cast<std::size_t>(i)] =
-        Vec3{c[0][i] / det / unit, c[1][i] / det / unit, c[2][i] / det / unit} + Vec3{};
+    result.rows[i] = Vec3{c[0][i] / det / unit, c[1][i] / det / unit, c[2][i] / det / unit} + Vec3{};
   }
   result.shift = Vec3{} - result(map.shift);  // the shift is 0 up to here
   return result;

@@ -10,7 +10,7 @@ namespace affskel::core {
 /// agree on every bit.
 struct AffineMap {
   std::array<Vec3, 3> rows = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< of M
-  Vec3 shift;
+  Vec3 shift = {};
 
   Vec3 operator()(const Vec3& point) const {
     return Vec3{dot(rows[0], point), dot(rows[1], point), dot(rows[2], point)} + shift;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,14 @@ class Groups {
   std::vector<std::size_t> begin_ = {0};  // per group, and one past the end
   std::vector<Value> values_;
 };
+
+/// Of each of `count` members the numbers of the lists that hold it, ascending: of vertices their triangles, say.
+template <class Lists>
+Groups<std::uint32_t> holders(std::size_t count, const Lists& lists) {
+  return {count, [&](const auto& put) {
+            for (std::uint32_t n = 0; n < lists.size(); ++n)
+              for (const std::uint32_t member : lists[n]) put(member, n);
+          }};
+}
 
 }  // namespace affskel::core

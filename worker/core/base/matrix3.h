@@ -24,6 +24,11 @@ inline Matrix3 operator*(double s, const Matrix3& m) {
   return {s * m[0], s * m[1], s * m[2]};
 }
 
+/// a b^T.
+inline Matrix3 outer(const Vec3& a, const Vec3& b) {
+  return {b.x * a, b.y * a, b.z * a};
+}
+
 /// m^T v.
 inline Vec3 transposed_times(const Matrix3& m, const Vec3& v) {
   return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 
 namespace affskel::core {
 
@@ -12,7 +13,8 @@ struct Vec3 {
   double y = 0;
   double z = 0;
 
-  double operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
+  double operator[](std::integral auto k) const { return k == 0 ? x : k == 1 ? y : z; }
+  double& operator[](std::integral auto k) { return k == 0 ? x : k == 1 ? y : z; }
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 

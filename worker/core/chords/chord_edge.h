@@ -8,7 +8,6 @@
 #include "core/chords/chord_shocks.h"
 #include "core/contour/edge_cells.h"
 #include "core/erosion/frame_field.h"
-#include "core/lattice/lattice_edges.h"
 
 namespace affskel::core {
 

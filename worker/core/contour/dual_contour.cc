@@ -73,9 +73,7 @@ class Contouring {
       mean = mean + share * crossings_[s].position;
       const Vec3 n = dot(crossings_[s].normal, reference) < 0 ? -crossings_[s].normal : crossings_[s].normal;
       normal = normal + n;
-      m[0] = m[0] + share * n.x * n;
-      m[1] = m[1] + share * n.y * n;
-      m[2] = m[2] + share * n.z * n;
+      m = m + outer(n, share * n);
     }
     const Vec3 corner = spacing_ * vector_of(cells_.place[cell]);
     const double h = spacing_;

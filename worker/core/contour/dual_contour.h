@@ -10,7 +10,6 @@
 #include "core/contour/edge_cells.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/lattice/lattice.h"
-#include "core/lattice/lattice_edges.h"
 #include "core/lattice/solid_parts.h"
 
 namespace affskel::core {

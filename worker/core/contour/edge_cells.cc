@@ -72,10 +72,7 @@ EdgeCells edge_cells(const Lattice& lattice, const DualComplex& complex, const S
     }
     cells.ring[entry.edge][entry.corner] = static_cast<std::uint32_t>(cells.vertex.size() - 1);
   }
-  cells.edges = {cells.vertex.size(), [&](const auto& put) {
-                   for (std::uint32_t e = 0; e < edges.size(); ++e)
-                     for (const std::uint32_t cell : cells.ring[e]) put(cell, e);
-                 }};
+  cells.edges = holders(cells.vertex.size(), cells.ring);
   cells.place = cells_of_vertices(lattice, cells.vertex);
   return cells;
 }

@@ -31,26 +31,4 @@ SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t) {
   return v;
 }
 
-void drop_unused_vertices(SheetMesh& mesh) {
-  constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> index(mesh.vertices.size(), kUnused);
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) index[corner] = 0;
-  for (const auto& segment : mesh.segments)
-    for (const std::uint32_t end : segment) index[end] = 0;
-  std::uint32_t kept = 0;
-  for (std::uint32_t v = 0; v < index.size(); ++v) {
-    if (index[v] == kUnused) continue;
-    mesh.vertices[kept] = mesh.vertices[v];
-    mesh.part[kept] = mesh.part[v];
-    index[v] = kept++;
-  }
-  mesh.vertices.resize(kept);
-  mesh.part.resize(kept);
-  for (Triangle& triangle : mesh.triangles)
-    for (std::uint32_t& corner : triangle) corner = index[corner];
-  for (auto& segment : mesh.segments)
-    for (std::uint32_t& end : segment) end = index[end];
-}
-
 }  // namespace affskel::core

@@ -44,7 +44,4 @@ Mesh mesh_of(const SheetMesh& sheet);
 /// a + t (b - a), all values; normals are turned to agree and made unit again.
 SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t);
 
-/// Leaves out the vertices that neither triangle nor segment uses; the others keep their order.
-void drop_unused_vertices(SheetMesh& mesh);
-
 }  // namespace affskel::core

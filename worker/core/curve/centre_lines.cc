@@ -258,11 +258,9 @@ class CentreLines {
     const Vec3 to = q - dot(q, t) * t;
     meeting.side = meeting.side + weight * to;
     meeting.lines += 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 column = kIdentity3[k] - t[static_cast<int>(k)] * t;
-      meeting.sum[k] = meeting.sum[k] + weight * column;
-      meeting.angles[k] = meeting.angles[k] + column;
-    }
+    const Matrix3 across = kIdentity3 + -1.0 * outer(t, t);
+    meeting.sum = meeting.sum + weight * across;
+    meeting.angles = meeting.angles + across;
   }
 
   // As far as its lines tell where they meet, and that is near; else by where they part.

@@ -182,9 +182,9 @@ class GraphOfCurve {
 
   void list_nodes() {
     std::vector<char> within(places_.size(), 0);
-    for (const CurveBranch& branch : graph_.branches)
-      for (std::size_t n = 0; n < branch.vertices.size(); ++n)
-        if (is_within(branch, n)) within[branch.vertices[n]] = 1;
+    for_each_vertex([&](std::uint32_t, std::uint32_t v, bool inner) {
+      if (inner) within[v] = 1;
+    });
     for (std::uint32_t v = 0; v < within.size(); ++v) {
       if (within[v]) continue;
       graph_.nodes.push_back(v);

@@ -9,7 +9,6 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
-#include "core/base/unit.h"
 #include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"
@@ -20,6 +19,7 @@
 #include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/limb_tubes.h"
+#include "core/curve/line_ends.h"
 #include "core/curve/pruned_lines.h"
 #include "core/curve/sheet_lines.h"
 #include "core/curve/volume_beyond.h"
@@ -226,12 +226,8 @@ std::vector<double> areas_of(const LimbSections& sections, std::span<const Vec3>
   std::vector<double> areas(places.size(), 0);
   for (const auto& line : polylines(places.size(), segments)) {
     for (std::size_t n = 0; n < line.size(); ++n) {
-      const Vec3& at = places[line[n]];
-      std::size_t low = n, high = n;
-      while (low > 0 && norm(places[line[low]] - at) < balls[line[n]]) --low;
-      while (high + 1 < line.size() && norm(places[line[high]] - at) < balls[line[n]]) ++high;
-      const Vec3 across = unit(places[line[high]] - places[line[low]]);
-      if (across != Vec3{}) areas[line[n]] = sections.area(at, across);
+      const Vec3 across = direction_in_ball(places, line, n, balls[line[n]]);
+      if (across != Vec3{}) areas[line[n]] = sections.area(places[line[n]], across);
     }
   }
   return areas;
@@ -350,10 +346,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   find_distances(solid, lattice, curve);
   measure(solid, lattice, curve, options.context);
   curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
-  std::vector<std::uint32_t> degree(curve.vertices.size(), 0);
-  for (const Segment& segment : curve.segments)
-    for (const std::uint32_t v : segment) ++degree[v];
-  curve.ends = static_cast<std::uint32_t>(std::count(degree.begin(), degree.end(), 1));
+  const Adjacency beside = neighbours(curve.vertices.size(), curve.segments);
+  for (std::size_t v = 0; v < beside.size(); ++v) curve.ends += beside[v].size() == 1;
   return std::move(curve);
 }
 

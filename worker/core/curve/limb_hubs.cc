@@ -30,10 +30,7 @@ struct HubMoments {
     second = second + other.second;
   }
   Vec3 centre() const { return (1 / count) * first; }
-  Matrix3 about_centre() const {
-    const Vec3 c = centre();
-    return second + -1.0 * Matrix3{c.x * first, c.y * first, c.z * first};
-  }
+  Matrix3 about_centre() const { return second + -1.0 * outer(first, centre()); }
 };
 
 struct HubLimb {
@@ -56,9 +53,7 @@ class FindHubs {
     for (const auto& line : in_.lines)
       for (const std::uint32_t v : {line.front(), line.back()}) ++ends_[v];
     StopCheck stop(in_.context);
-    each_point(stop, [&](const Vec3& at, std::uint32_t v) {
-      moments_[v].add({1, at, {at.x * at, at.y * at, at.z * at}});
-    });
+    each_point(stop, [&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
     for (const auto& line : in_.lines) part(line);
     join_what_touches(stop);
     for (std::uint32_t v = 0; v < ends_.size(); ++v)

@@ -17,6 +17,7 @@ namespace {
 constexpr double kShort = 0.15;     // of rays: in a tube along one of the axes half of those across it
 constexpr double kNothing = 1e-12;  // of the squared reach: a ray that short says nothing more
 
+constexpr double kSlack = 1e-9;  // for rounding, of lengths
 constexpr double kFar = std::numeric_limits<double>::infinity();
 const Box kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
@@ -27,36 +28,12 @@ struct CutBoxes {
   const Vec3& across;
 
   bool meets(const Box& box) const {
-    double height = 0, half = 0;  // of the box's middle above the plane, and of the box
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double part = across[static_cast<int>(k)];
-      height += part * (0.5 * (box.low[k] + box.high[k]) - place[static_cast<int>(k)]);
-      half += std::abs(part) * 0.5 * (box.high[k] - box.low[k]);
-    }
-    return std::abs(height) <= kSlack * half && round.meets(box);
+    const Vec3 sides = box.sides();
+    const double height = dot(across, box.middle() - place);  // of the box's middle above the plane
+    const double half =
+        0.5 * (std::abs(across.x) * sides.x + std::abs(across.y) * sides.y + std::abs(across.z) * sides.z);
+    return std::abs(height) <= (1 + kSlack) * half && round.meets(box);
   }
-
-  static constexpr double kSlack = 1 + 1e-9;  // for rounding
-};
-
-// The boxes that a line from one place to another goes through.
-struct BoxesBetween {
-  const Vec3 &a, &b;
-
-  bool meets(const Box& box) const {
-    double first = 0, last = 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double start = a[static_cast<int>(k)], way = b[static_cast<int>(k)] - start;
-      if (way == 0 && (start < box.low[k] || start > box.high[k])) return false;
-      if (way == 0) continue;
-      const double to_low = (box.low[k] - start) / way, to_high = (box.high[k] - start) / way;
-      first = std::max(first, std::min(to_low, to_high) - kSlack);
-      last = std::min(last, std::max(to_low, to_high) + kSlack);
-    }
-    return first <= last;
-  }
-
-  static constexpr double kSlack = 1e-9;  // for rounding
 };
 
 }  // namespace
@@ -87,7 +64,7 @@ void LimbSections::cut(const Box& round, const Vec3& place, const Vec3& across, 
       if ((height[k] < 0) == (height[next] < 0)) continue;
       const std::size_t end = height[k] < 0 ? 1 : 0;
       ends[end] = corner[k] + (height[k] / (height[k] - height[next])) * (corner[next] - corner[k]);
-      edges[end] = {std::min(triangle[k], triangle[next]), std::max(triangle[k], triangle[next])};
+      edges[end] = ascending(triangle[k], triangle[next]);
       ++count;
     }
     if (count == 2) visit(ends, edges);
@@ -98,9 +75,7 @@ LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const
                                          double reach) const {
   Rays length;
   length.fill(reach);
-  const Box round{{place.x - reach, place.y - reach, place.z - reach},
-                  {place.x + reach, place.y + reach, place.z + reach}};
-  cut(round, place, cross(u, v), [&](const auto& ends, const auto&) {
+  cut(Box{place, place}.widened(reach), place, cross(u, v), [&](const auto& ends, const auto&) {
     const std::array<double, 2> p{dot(ends[0], u), dot(ends[0], v)}, q{dot(ends[1], u), dot(ends[1], v)};
     for (std::size_t n = 0; n < kRays; ++n) {
       const double left = turns_[n][0] * p[1] - turns_[n][1] * p[0];
@@ -189,10 +164,9 @@ LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& 
 }
 
 double LimbSections::thickness(const Vec3& place, double reach) const {
-  const std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   std::array<double, 3 * kRays> all;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Rays length = outline(place, axes[k], axes[(k + 1) % 3], reach);
+    const Rays length = outline(place, kIdentity3[k], kIdentity3[(k + 1) % 3], reach);
     std::copy(length.begin(), length.end(), all.begin() + k * kRays);
   }
   const auto at = all.begin() + static_cast<std::ptrdiff_t>(kShort * static_cast<double>(all.size()));
@@ -203,7 +177,7 @@ double LimbSections::thickness(const Vec3& place, double reach) const {
 std::optional<Vec3> LimbSections::parted(const Vec3& a, const Vec3& b) const {
   const Vec3 way = b - a;
   double first = 1, last = 0;
-  tree_.visit(BoxesBetween{a, b}, [&](std::uint32_t t) {
+  tree_.visit(WayQuery{a, way, kSlack * largest_component(way)}, [&](std::uint32_t t) {
     const Vec3 &p = surface_.points[surface_.triangles[t][0]], &q = surface_.points[surface_.triangles[t][1]],
                &r = surface_.points[surface_.triangles[t][2]];
     const Vec3 out = cross(q - p, r - p);

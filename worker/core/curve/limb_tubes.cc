@@ -8,6 +8,7 @@
 #include "core/base/basis.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
+#include "core/curve/line_ends.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
@@ -22,11 +23,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-double distance_to(const Box& box, const Vec3& at) {
-  const auto out = [&](std::size_t k, double x) { return std::max({0.0, box.low[k] - x, x - box.high[k]}); };
-  return norm({out(0, at.x), out(1, at.y), out(2, at.z)});
 }
 
 }  // namespace
@@ -104,23 +100,14 @@ LimbTubes::Limb LimbTubes::cut(std::vector<std::uint32_t> line) {
 // The planes turn with the line, and not about it, so that outlines can be compared.
 void LimbTubes::add_rings(const EllipseAt& ellipse_at, Limb& limb) const {
   const auto& line = limb.vertices;
-  const auto along = [&](std::size_t n) {
-    std::size_t low = n, high = n;
-    const auto is_near = [&](std::size_t k) {
-      return norm(places_[line[k]] - places_[line[n]]) < ball_[line[n]];
-    };
-    while (low > 0 && is_near(low)) --low;
-    while (high + 1 < line.size() && is_near(high)) ++high;
-    return unit(places_[line[high]] - places_[line[low]]);
-  };
   Vec3 before;
   for (std::size_t n = 0; n < line.size(); ++n) {
-    const Vec3 t = along(n);
+    const double ball = ball_[line[n]];
+    const Vec3 t = direction_in_ball(places_, line, n, ball);
     Vec3 u = unit(before - dot(before, t) * t);
     if (u == Vec3{}) u = unit_beside(t);
     before = u;
     Ring ring{u, cross(t, u), {}};
-    const double ball = ball_[line[n]];
     ring.ellipse = ellipse_at(places_[line[n]], ring.u, ring.v, LimbSections::kSeen * ball);
     ring.thickness = std::clamp(ring.ellipse.radius(), ball, kRoundest * ball);
     limb.rings.push_back(ring);
@@ -297,7 +284,7 @@ std::uint32_t LimbTubes::own_vertex(const Limb& limb, std::size_t n) const {
 }
 
 bool LimbTubes::holds(const Limb& limb, const Vec3& at) const {
-  return distance_to(limb.box, at) <= 0 && depth_below(limb, nearest_in(limb, at), at) < 0;
+  return limb.box.squared_distance(at) <= 0 && depth_below(limb, nearest_in(limb, at), at) < 0;
 }
 
 // A joint's next vertex, the nearest that is none; the joint where there is none.
@@ -365,7 +352,7 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
   // A handle has no more than what is nearest to it: noise makes some within a body's hips.
   any_beside(limb, [&](const Limb& other) {
     const bool is_handle = other.ends[0] == other.ends[1] && other.size <= limb.size;
-    if (is_handle || distance_to(other.box, at) >= least) return false;
+    if (is_handle || std::sqrt(other.box.squared_distance(at)) >= least) return false;
     const std::size_t n = nearest_in(other, at);
     const double depth = depth_below(other, n, at);
     if (depth < least) {

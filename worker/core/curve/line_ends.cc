@@ -120,6 +120,15 @@ Vec3 outward(std::span<const Vec3> places, std::span<const std::uint32_t> line, 
   return unit(unit(here) + bend * (unit(here) - unit(there)));
 }
 
+Vec3 direction_in_ball(std::span<const Vec3> places, std::span<const std::uint32_t> line, std::size_t n,
+                       double ball) {
+  const auto is_near = [&](std::size_t k) { return norm(places[line[k]] - places[line[n]]) < ball; };
+  std::size_t low = n, high = n;
+  while (low > 0 && is_near(low)) --low;
+  while (high + 1 < line.size() && is_near(high)) ++high;
+  return unit(places[line[high]] - places[line[low]]);
+}
+
 void draw_end(const LineEndInput& input, std::vector<Vec3>& places) {
   DrawEnd(input, places).run();
 }

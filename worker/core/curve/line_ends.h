@@ -16,6 +16,10 @@ namespace affskel::core {
 /// as it is known.  0 where it has none.
 Vec3 outward(std::span<const Vec3> places, std::span<const std::uint32_t> line, double stretch, double gap);
 
+/// The direction of a line at its n-th vertex, by what lies in a ball about it.  0 where it has none.
+Vec3 direction_in_ball(std::span<const Vec3> places, std::span<const std::uint32_t> line, std::size_t n,
+                       double ball);
+
 struct LineEndInput {
   const LimbSections& sections;
   const DistanceToMesh& distance;

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 #include "core/base/matrix3.h"
 #include "core/base/vec3.h"
 
@@ -13,10 +10,8 @@ class ParabolaFit {
  public:
   void add(double t, const Vec3& place) {
     const Vec3 powers{1, t, t * t};
-    for (int k = 0; k < 3; ++k) {
-      sums_[static_cast<std::size_t>(k)] = sums_[static_cast<std::size_t>(k)] + powers[k] * powers;
-      places_[static_cast<std::size_t>(k)] = places_[static_cast<std::size_t>(k)] + powers[k] * place;
-    }
+    sums_ = sums_ + outer(powers, powers);
+    places_ = places_ + outer(place, powers);
   }
   Vec3 at_0() const {
     const Vec3 row = inverse_transposed(sums_)[0];  // the sums are symmetric
@@ -24,8 +19,7 @@ class ParabolaFit {
   }
 
  private:
-  Matrix3 sums_{};
-  std::array<Vec3, 3> places_{};
+  Matrix3 sums_{}, places_{};
 };
 
 }  // namespace affskel::core

@@ -3,10 +3,8 @@
 // marked; then every triangle is divided by its marks alone, so that the pieces fit together.
 #include "core/curve/parted_surface.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -69,8 +67,7 @@ class CutTriangles {
 
   PartedSurface run() {
     const std::vector<Triangle>& all = mesh_.triangles;
-    std::transform(all.begin(), all.end(), std::back_inserter(mixed_),
-                   [&](const Triangle& t) { return mixed(t); });
+    for (const Triangle& t : all) mixed_.push_back(mixed(t));
     while (mark()) divide();
     PartedSurface result;
     for (const Triangle& t : all) result.point.push_back(point_under(t, 1.0 / 3, 1.0 / 3));

@@ -58,14 +58,8 @@ class Collapse {
     edge_left_.assign(edges_.size(), 1);
     for (const Triangle& t : sheet_.triangles)
       edges_of_.push_back({number(t[0], t[1]), number(t[1], t[2]), number(t[2], t[0])});
-    triangles_of_ = {edges_.size(), [&](const auto& put) {
-                       for (std::uint32_t t = 0; t < edges_of_.size(); ++t)
-                         for (const std::uint32_t e : edges_of_[t]) put(e, t);
-                     }};
-    edges_round_ = {sheet_.vertices.size(), [&](const auto& put) {
-                      for (std::uint32_t e = 0; e < edges_.size(); ++e)
-                        for (const std::uint32_t v : edges_[e]) put(v, e);
-                    }};
+    triangles_of_ = holders(edges_.size(), edges_of_);
+    edges_round_ = holders(sheet_.vertices.size(), edges_);
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       cofaces_.push_back(static_cast<std::uint32_t>(triangles_of_[e].size()));
     for (std::uint32_t v = 0; v < sheet_.vertices.size(); ++v)

@@ -29,14 +29,14 @@ bool is_text(FileFormat format) {
 
 FieldFile::FieldFile(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice, double volume,
                      const FileFacts& facts, const FieldColumns& columns)
-    : table_(format, file, lattice, field_columns(columns), facts),
+    : table_(make_lattice_table(format, file, lattice, field_columns(columns), facts)),
       axes_(lattice.axes),
       volume_(volume),
       columns_(columns) {
   if (is_text(format)) return;
   outside_.emplace(lattice.dims, [this](const PlaceAround& at, double erosion) {
-    table_.put_outside(at, kErosion, erosion);
-    table_.put_outside(at, kShare, erosion / volume_);
+    table_->put_outside(at, kErosion, erosion);
+    table_->put_outside(at, kShare, erosion / volume_);
   });
 }
 
@@ -54,12 +54,12 @@ void FieldFile::put(const LatticePlace& at, const FieldSample& sample) {
     values[count++] = static_cast<double>(sample.direction);
   }
   if (columns_.parts) values[count++] = static_cast<double>(sample.part);
-  table_.put(at, std::span(values).first(count));
+  table_->put(at, std::span(values).first(count));
 }
 
 void FieldFile::finish() {
   if (outside_) outside_->finish();
-  table_.finish();
+  table_->finish();
 }
 
 }  // namespace affskel::core

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/erosion/outside_erosion.h"
@@ -31,7 +32,7 @@ struct FieldColumns {
 class FieldFile {
  public:
   /// @param lattice mesh units.  @param volume v0, mesh units cubed.  @param file must outlive it.
-  /// @throws as LatticeTable, also from the others.
+  /// @throws as make_lattice_table(), also from the others.
   FieldFile(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice, double volume,
             const FileFacts& facts, const FieldColumns& columns = {});
   FieldFile(const FieldFile&) = delete;
@@ -43,7 +44,7 @@ class FieldFile {
   void finish();
 
  private:
-  LatticeTable table_;
+  std::unique_ptr<LatticeTable> table_;
   std::array<Vec3, 3> axes_;
   double volume_;
   FieldColumns columns_;

@@ -8,35 +8,22 @@
 #include "core/files/vtkhdf_grid.h"
 
 namespace affskel::core {
-
-class LatticeTable::Output {
- public:
-  virtual ~Output() = default;
-  virtual void put(const LatticePlace& at, std::span<const double> values) = 0;
-  virtual void put_outside(const std::array<std::int64_t, 3>&, std::size_t, double) {}
-  virtual void finish() {}
-};
-
 namespace {
 
-class TextOutput : public LatticeTable::Output {
+class TextOutput : public LatticeTable {
  public:
-  TextOutput(base::AtomicFile& file, char separator, bool whole, const LatticeGrid& lattice,
+  // @param csv else .dat.
+  TextOutput(base::AtomicFile& file, bool csv, const LatticeGrid& lattice,
              const std::vector<LatticeColumn>& columns)
-      : file_(file), separator_(separator), lattice_(lattice) {
-    for (const LatticeColumn& column : columns) {
-      const bool shown = column.in_text && (whole || column.type == GridType::kFloat64);
-      shown_.insert(shown_.end(), column.components.size(), shown);
-    }
-  }
-
-  void write_header(const std::vector<LatticeColumn>& columns) {
+      : file_(file), separator_(csv ? ',' : ' '), lattice_(lattice) {
     std::string header = "x,y,z";
     for (const LatticeColumn& column : columns) {
-      if (!column.in_text) continue;
+      const bool shown = column.in_text && (csv || column.type == GridType::kFloat64);
+      shown_.insert(shown_.end(), column.components.size(), shown);
+      if (!shown) continue;
       for (const std::string& component : column.components) header += "," + component;
     }
-    file_.write(header + "\n");
+    if (csv) file_.write(header + "\n");
   }
 
   void put(const LatticePlace& at, std::span<const double> values) override {
@@ -71,7 +58,7 @@ LatticeGrid grid_around(const LatticeGrid& lattice) {
   return grid;
 }
 
-class GridOutput : public LatticeTable::Output {
+class GridOutput : public LatticeTable {
  public:
   GridOutput(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice,
              const std::vector<LatticeColumn>& columns, const FileFacts& facts)
@@ -145,19 +132,17 @@ class GridOutput : public LatticeTable::Output {
   std::uint32_t written_ = 0;  // planes
 };
 
-std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, base::AtomicFile& file,
-                                                  const LatticeGrid& lattice,
-                                                  const std::vector<LatticeColumn>& columns,
-                                                  const FileFacts& facts) {
+}  // namespace
+
+std::unique_ptr<LatticeTable> make_lattice_table(FileFormat format, base::AtomicFile& file,
+                                                 const LatticeGrid& lattice,
+                                                 const std::vector<LatticeColumn>& columns,
+                                                 const FileFacts& facts) {
   check_places(format, lattice);
   switch (format) {
-    case FileFormat::kCsv: {
-      auto output = std::make_unique<TextOutput>(file, ',', true, lattice, columns);
-      output->write_header(columns);
-      return output;
-    }
+    case FileFormat::kCsv:
     case FileFormat::kDat:
-      return std::make_unique<TextOutput>(file, ' ', false, lattice, columns);
+      return std::make_unique<TextOutput>(file, format == FileFormat::kCsv, lattice, columns);
     case FileFormat::kVti:
     case FileFormat::kVts:
     case FileFormat::kVtkHdf:
@@ -166,26 +151,6 @@ std::unique_ptr<LatticeTable::Output> make_output(FileFormat format, base::Atomi
     default:
       throw std::logic_error("no writer of sample points for " + std::string(extension_of(format)));
   }
-}
-
-}  // namespace
-
-LatticeTable::LatticeTable(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice,
-                           const std::vector<LatticeColumn>& columns, const FileFacts& facts)
-    : output_(make_output(format, file, lattice, columns, facts)) {}
-
-LatticeTable::~LatticeTable() = default;
-
-void LatticeTable::put(const LatticePlace& at, std::span<const double> values) {
-  output_->put(at, values);
-}
-
-void LatticeTable::put_outside(const std::array<std::int64_t, 3>& at, std::size_t component, double value) {
-  output_->put_outside(at, component, value);
-}
-
-void LatticeTable::finish() {
-  output_->finish();
 }
 
 void check_places(FileFormat format, const LatticeGrid& lattice) {

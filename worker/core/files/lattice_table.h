@@ -30,27 +30,24 @@ struct LatticeColumn {
 /// (make_vtk_xml_grid), `.vtkhdf` and `.hdf` (make_vtkhdf_grid).
 class LatticeTable {
  public:
-  /// @param lattice mesh units.  @param file must outlive it.
-  /// @throws CoreError kBadInput for .vti of a lattice whose axes are not those of the mesh; base::FileError,
-  ///   CoreError kLimit and kInternal, also from the others.
-  LatticeTable(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice,
-               const std::vector<LatticeColumn>& columns, const FileFacts& facts);
-  ~LatticeTable();
-
+  virtual ~LatticeTable() = default;
   /// @param values one per component, column by column.
-  void put(const LatticePlace& at, std::span<const double> values);
+  virtual void put(const LatticePlace& at, std::span<const double> values) = 0;
   /// The value of a component at a place outside, -1 to dims, of no effect in text.  Before a point of a
   /// layer more than two further is put.
-  void put_outside(const std::array<std::int64_t, 3>& at, std::size_t component, double value);
+  virtual void put_outside(const std::array<std::int64_t, 3>& /*at*/, std::size_t /*component*/,
+                           double /*value*/) {}
   /// Call once, last; the file is left uncommitted.
-  void finish();
-
-  /// What writes a format.
-  class Output;
-
- private:
-  std::unique_ptr<Output> output_;
+  virtual void finish() {}
 };
+
+/// @param lattice mesh units.  @param file must outlive the table.
+/// @throws CoreError kBadInput for .vti of a lattice whose axes are not those of the mesh; base::FileError,
+///   CoreError kLimit and kInternal, also from the table.
+std::unique_ptr<LatticeTable> make_lattice_table(FileFormat format, base::AtomicFile& file,
+                                                 const LatticeGrid& lattice,
+                                                 const std::vector<LatticeColumn>& columns,
+                                                 const FileFacts& facts);
 
 /// Whether a file of this format places the points of such a lattice.
 /// @throws CoreError kBadInput, naming the format to take, when not.

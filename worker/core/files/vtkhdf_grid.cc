@@ -45,14 +45,9 @@ class Handle {
   Handle(hid_t id, Close close, const char* what) : id_(id), close_(close) {
     if (id_ < 0) hdf5_failed(what);
   }
-  ~Handle() { release(); }
+  ~Handle() { close_(id_); }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  herr_t release() {
-    const hid_t id = id_;
-    id_ = -1;
-    return id < 0 ? 0 : close_(id);
-  }
   operator hid_t() const { return id_; }
 
  private:
@@ -96,7 +91,7 @@ void write_frame(hid_t root, const LatticeGrid& grid) {
   const Matrix3 axes = grid.axes;
   const double spacing = std::cbrt(std::abs(determinant(axes)));
   std::array<double, 9> frame{};
-  for (std::size_t i = 0; i < 9; ++i) frame[i] = axes[i / 3][static_cast<int>(i % 3)] / spacing;
+  for (std::size_t i = 0; i < 9; ++i) frame[i] = axes[i / 3][i % 3] / spacing;
   set_attribute(root, "frame_axes", frame);
 }
 
@@ -116,7 +111,7 @@ void place(hid_t root, const LatticeGrid& grid) {
     const Vec3& axis = grid.axes[a];
     spacing[a] = norm(axis);
     for (std::size_t row = 0; row < 3; ++row) {
-      direction[3 * row + a] = axis[static_cast<int>(row)] / spacing[a];
+      direction[3 * row + a] = axis[row] / spacing[a];
     }
   }
   set_attribute(root, "Spacing", spacing);

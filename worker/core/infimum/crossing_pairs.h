@@ -36,10 +36,7 @@ class CrossingPairs {
   void each_new(const Vec3& x, const Vec3& d, FourTree::Lists& lists, Below below, Visit visit) const {
     if (empty()) return;
     const PlaneHeights plane(x, d);
-    const auto meets = [&](const FourBoxes& boxes) {
-      const Four middle = plane.middle(boxes), reach = plane.reach(boxes);
-      return (middle <= reach) & (middle >= -reach);
-    };
+    const auto meets = [&](const FourBoxes& boxes) { return plane.passes(boxes); };
     for (const std::uint32_t n : tree_.select(meets, lists)) {
       const CrossingPair& pair = pairs_[n];
       if (pair.links[0] == CrossingPair::kNone || !(below(pair.links[0]) || below(pair.links[1])))

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/spatial/halved_nodes.h"
+
 namespace affskel::core {
 namespace {
 
@@ -33,32 +35,21 @@ class FourTree::Builder {
     std::uint32_t first = 0, count = 0;
   };
 
-  double centre(std::uint32_t item, std::size_t axis) const {
-    return boxes_[item].low[axis] + boxes_[item].high[axis];
-  }
-
   // Of whole leaves; a leaf has no second half.
   std::array<Range, 2> halves(const Range& range) {
     const std::uint32_t half = std::min(range.count, (range.count / 2 + 3) / 4 * 4);
     if (half == range.count) return {range, Range{}};
-    Box centres;
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      centres.include(Vec3{centre(order_[i], 0), centre(order_[i], 1), centre(order_[i], 2)});
-    }
-    const std::size_t axis = centres.longest_axis();
-    const auto begin = order_.begin() + range.first;
-    std::nth_element(begin, begin + half, begin + range.count, [&](std::uint32_t i, std::uint32_t j) {
-      return std::pair(centre(i, axis), i) < std::pair(centre(j, axis), j);
-    });
+    halve_items(std::span(order_).subspan(range.first, range.count), half,
+                [&](std::uint32_t item) { return boxes_[item].low + boxes_[item].high; });
     return {Range{range.first, half}, Range{range.first + half, range.count - half}};
   }
 
   void put(Node& node, std::uint32_t place, const Box& box) const {
     const Vec3 middle = box.middle(), half = 0.5 * box.sides();
     for (std::size_t k = 0; k < 3; ++k) {
-      node.boxes.centre[k][place] = static_cast<float>(middle[static_cast<int>(k)]);
-      node.boxes.half[k][place] = kLeastSide + std::nextafter(static_cast<float>(half[static_cast<int>(k)]),
-                                                              std::numeric_limits<float>::infinity());
+      node.boxes.centre[k][place] = static_cast<float>(middle[k]);
+      node.boxes.half[k][place] =
+          kLeastSide + std::nextafter(static_cast<float>(half[k]), std::numeric_limits<float>::infinity());
     }
   }
 
@@ -80,8 +71,8 @@ class FourTree::Builder {
           Box box;
           for (std::uint32_t i = 0; i < quarter.count; ++i) {
             const Box& item = boxes_[order_[quarter.first + i]];
-            box.include(item.lowest());
-            box.include(item.highest());
+            box.include(item.low);
+            box.include(item.high);
           }
           put(node, size, box);
           node.child[size++] = build(level + 1, quarter);

@@ -13,6 +13,8 @@ namespace affskel::core {
 
 /// Four numbers that are worked on at once (a vector type of GCC and Clang).
 using Four = float __attribute__((vector_size(16)));
+/// Whether, of each of four: -1 or 0.
+using FourAnswers = int __attribute__((vector_size(16)));
 
 /// Boxes of four items side by side: centres and half sides, by coordinate.  In single precision; sides are
 /// rounded up.
@@ -35,6 +37,11 @@ class PlaneHeights {
   Four middle(const FourBoxes& boxes) const {
     return boxes.centre[0] * d_[0] + boxes.centre[1] * d_[1] + boxes.centre[2] * d_[2] - offset_;
   }
+  /// Whether the plane may pass boxes, or the segments between their lowest and highest corners.
+  FourAnswers passes(const FourBoxes& boxes) const { return is_within(middle(boxes), reach(boxes)); }
+  FourAnswers passes_segments(const FourBoxes& boxes) const {
+    return is_within(middle(boxes), reach_of_segment(boxes));
+  }
   /// How far the segment between its lowest and highest corner reaches from its middle at most.
   Four reach_of_segment(const FourBoxes& boxes) const {
     const Four reach = boxes.half[0] * d_[0] + boxes.half[1] * d_[1] + boxes.half[2] * d_[2];
@@ -49,7 +56,7 @@ class PlaneHeights {
   static Four distance(const FourBoxes& boxes, const Vec3& x) {
     Four sum = boxes.half[0] + boxes.half[1] + boxes.half[2] + kSlack;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four away = boxes.centre[k] - static_cast<float>(x[k]);
       sum += away < 0 ? -away : away;
     }
     return sum;
@@ -59,7 +66,7 @@ class PlaneHeights {
   static Four distance_squared(const FourBoxes& boxes, const Vec3& x) {
     Four sum = {0, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four away = boxes.centre[k] - static_cast<float>(x[k]);
       const Four most = (away < 0 ? -away : away) + boxes.half[k] + kSlack;
       sum += most > 0 ? most * most : Four{};
     }
@@ -70,7 +77,7 @@ class PlaneHeights {
   static Four gap(const FourBoxes& boxes, const Vec3& x) {
     Four most = {0, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Four away = boxes.centre[k] - static_cast<float>(x[static_cast<int>(k)]);
+      const Four away = boxes.centre[k] - static_cast<float>(x[k]);
       const Four outside = (away < 0 ? -away : away) - boxes.half[k] - kSlack;
       most = outside > most ? outside : most;
     }
@@ -78,6 +85,10 @@ class PlaneHeights {
   }
 
  private:
+  static FourAnswers is_within(const Four& middle, const Four& reach) {
+    return (middle <= reach) & (middle >= -reach);
+  }
+
   std::array<float, 3> d_, size_;
   float offset_;
 };

@@ -63,12 +63,6 @@ class ChordDescent::Work {
     }
   }
 
-  bool holds(const Vec3& x, const LeastChord& least, std::uint32_t vertex) {
-    x_ = x;
-    find_again(least.normal);
-    return finder_.holds(vertex);
-  }
-
   std::uint64_t evaluations() const { return evaluations_; }
   SaddleSearch& saddles() { return saddles_; }
 
@@ -386,10 +380,6 @@ LeastChord ChordDescent::descend(const Vec3& x, const LeastChord& start, const D
 
 LeastChord ChordDescent::look_across(const Vec3& x, LeastChord least) {
   return work_->look_across(x, least);
-}
-
-bool ChordDescent::holds(const Vec3& x, const LeastChord& least, std::uint32_t vertex) {
-  return work_->holds(x, least, vertex);
 }
 
 SaddleSearch& ChordDescent::saddles() {

@@ -67,9 +67,6 @@ class ChordDescent {
   /// @return the least piece found; `least` itself where there is no lesser one.
   LeastChord look_across(const Vec3& x, LeastChord least);
 
-  /// Whether the piece of a plane through x holds a vertex that lies below.
-  bool holds(const Vec3& x, const LeastChord& least, std::uint32_t vertex);
-
   /// For questions between descents.
   SaddleSearch& saddles();
 

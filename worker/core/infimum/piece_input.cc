@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "core/base/basis.h"
@@ -59,7 +58,7 @@ double SurfaceSums::volume_from(const Vec3& x) const {
   DoubleSum sum = restored(value[0]);
   for (std::size_t k = 0; k < 3; ++k) {
     const DoubleSum area = restored(value[k + 1]);
-    sum.add(times(area, -x[static_cast<int>(k)]));
+    sum.add(times(area, -x[k]));
   }
   return sum.value();
 }
@@ -182,8 +181,7 @@ void PieceInput::find_passages() {
   std::vector<Box> boxes(edges.size());
   for (std::uint32_t n = 0; n < edges.size(); ++n) {
     const Edge& edge = edges[n];
-    const Vec3 &begin = mesh.points[edge.begin], &end = mesh.points[edge.end];
-    boxes[n] = {{begin.x, begin.y, begin.z}, {end.x, end.y, end.z}};
+    boxes[n] = {mesh.points[edge.begin], mesh.points[edge.end]};
     if (edge.there != kNone) passages[edge.there].edge = passages[edge.back].edge = n;
   }
   edge_tree.build(boxes);

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/refine_rounds.h"
 #include "core/base/execution_context.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/field.h"
@@ -17,13 +16,7 @@ namespace affskel::core {
 constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 25;
 
 struct RefineOptions {
-  unsigned threads = 1;                       ///< >= 1; the result does not depend on it
-  int most_rounds = base::kMostRefineRounds;  ///< 3 .. 254; with fewer, points keep their seeds
-};
-
-struct RefineCost {
-  int rounds = 0;
-  std::uint64_t evaluations = 0;  ///< of pieces
+  unsigned threads = 1;  ///< >= 1; the result does not depend on it
 };
 
 /// Per sample point the least piece over all directions, as far as it is found: E as the definition has it
@@ -40,7 +33,6 @@ struct RefineCost {
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<LeastChord> refine(const PieceInput& input, const Lattice& lattice,
                                const DirectionSet& directions, const ErosionField& seeds,
-                               const RefineOptions& options, ExecutionContext& context,
-                               RefineCost* cost = nullptr);
+                               const RefineOptions& options, ExecutionContext& context);
 
 }  // namespace affskel::core

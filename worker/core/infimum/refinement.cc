@@ -47,12 +47,6 @@ Refinement::Refinement(const PieceInput& input, const Lattice& lattice, unsigned
   find_first_rounds();
 }
 
-std::uint64_t Refinement::evaluations() const {
-  std::uint64_t sum = 0;
-  for (const auto& descent : idle_) sum += descent->evaluations();
-  return sum;
-}
-
 std::vector<RefinedPoint> Refinement::descend(const DirectionSet& directions, const Seeds& seeds,
                                               PointRange range, ExecutionContext& context) {
   std::vector<RefinedPoint> found(range.end - range.begin);

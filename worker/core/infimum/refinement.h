@@ -70,7 +70,6 @@ class Refinement {
 
   const std::vector<LeastChord>& least() const { return least_; }
   std::vector<LeastChord> take() { return std::move(least_); }
-  std::uint64_t evaluations() const;  ///< of pieces
 
  private:
   Vec3 at(std::uint32_t point) const;

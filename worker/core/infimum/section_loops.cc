@@ -36,14 +36,8 @@ void SectionLoops::cut(const Vec3& x, const Vec3& d) {
     number_ = 1;
   }
   const PlaneHeights plane(x, d);
-  const auto meets = [&](const FourBoxes& boxes) {
-    const Four middle = plane.middle(boxes), reach = plane.reach(boxes);
-    return (middle <= reach) & (middle >= -reach);
-  };
-  const auto meets_edge = [&](const FourBoxes& boxes) {
-    const Four middle = plane.middle(boxes), reach = plane.reach_of_segment(boxes);
-    return (middle <= reach) & (middle >= -reach);
-  };
+  const auto meets = [&](const FourBoxes& boxes) { return plane.passes(boxes); };
+  const auto meets_edge = [&](const FourBoxes& boxes) { return plane.passes_segments(boxes); };
   Start* start = starts_.end();
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t n : in_.edge_tree.select(meets, meets_edge, lists_)) {

@@ -210,10 +210,7 @@ struct FrameBox {
 
 FrameBox box_in(const Solid& solid, const Matrix3& f) {
   if (f == kIdentity3) return {solid.bbox_max - solid.bbox_min, {}};
-  const Matrix3 inverse = inverse_transposed(f);
-  const auto in_frame = [&](const Vec3& p) { return transposed_times(inverse, p); };
-  Box box;
-  for (const Vec3& p : solid.mesh.points) box.include(in_frame(p));
+  const Box box = box_of(solid.mesh.points, inverse_transposed(f));
   return {solid.scale() * box.sides(), f * box.middle()};
 }
 
@@ -245,13 +242,12 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
   if (!plan.fits) return plan;
   const double step = std::ldexp(spacing, -solid.exponent);
   plan.grid.axes = step * options.frame;
-  std::array<double, 3> origin{};
-  for (int k = 0; k < 3; ++k) {
+  Vec3 corner;
+  for (std::size_t k = 0; k < 3; ++k) {
     const double count = points_per_side(sides[k] / spacing);
-    plan.grid.dims[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(count);
-    origin[static_cast<std::size_t>(k)] = -0.5 * (count - 1) * step;
+    plan.grid.dims[k] = static_cast<std::uint32_t>(count);
+    corner[k] = -0.5 * (count - 1) * step;
   }
-  const Vec3 corner{origin[0], origin[1], origin[2]};
   plan.grid.origin = box.centre + options.frame * corner;
   return plan;
 }
@@ -291,22 +287,6 @@ bool may_search(const Plan& plan, const LatticeOptions& options) {
   return options.spacing == 0 && plan.estimate <= kRounding * static_cast<double>(options.max_points);
 }
 
-}  // namespace
-
-Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads,
-                     ExecutionContext* context) {
-  for (std::uint32_t n : grid.dims) {
-    if (n == 0 || n > (1U << 30))
-      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
-  }
-  LatticeOptions options;
-  options.threads = threads;
-  options.context = context;
-  return LatticeBuilder(solid, grid, options).run();
-}
-
-namespace {
-
 Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions& options, double spacing) {
   const Plan plan = fitting_plan(solid, box, options, spacing);
   Lattice lattice = LatticeBuilder(solid, plan.grid, options).run();
@@ -320,6 +300,15 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
 }
 
 }  // namespace
+
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads,
+                     ExecutionContext* context) {
+  for (std::uint32_t n : grid.dims) {
+    if (n == 0 || n > (1U << 30))
+      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
+  }
+  return LatticeBuilder(solid, grid, {.threads = threads, .context = context}).run();
+}
 
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {
   const Plan plan = plan_lattice(solid, box_in(solid, options.frame), options, options.spacing);

@@ -3,10 +3,10 @@
 namespace affskel::core {
 
 std::size_t Box::longest_axis() const {
+  const Vec3 side = sides();
   std::size_t longest = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (high[k] - low[k] > high[longest] - low[longest]) longest = k;
-  }
+  for (std::size_t k = 1; k < 3; ++k)
+    if (side[k] > side[longest]) longest = k;
   return longest;
 }
 

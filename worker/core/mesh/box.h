@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -14,37 +13,33 @@ namespace affskel::core {
 
 /// Axis-parallel box, closed; by itself the empty one, which holds nothing.
 struct Box {
-  std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
   bool meets(const Box& other) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (low[k] > other.high[k] || other.low[k] > high[k]) return false;
-    }
-    return true;
+    return !(low.x > other.high.x || other.low.x > high.x || low.y > other.high.y || other.low.y > high.y ||
+             low.z > other.high.z || other.low.z > high.z);
   }
   void include(const Box& other) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], other.low[k]);
-      high[k] = std::max(high[k], other.high[k]);
-    }
+    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y), std::min(low.z, other.low.z)};
+    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y), std::max(high.z, other.high.z)};
   }
-  void include(const Vec3& p) { include(Box{{p.x, p.y, p.z}, {p.x, p.y, p.z}}); }
+  void include(const Vec3& p) { include(Box{p, p}); }
+  /// By so much on every side.
+  Box widened(double by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }
   /// Of a place from the box, in which it is 0.
   double squared_distance(const Vec3& place) const {
     const auto outside = [](double x, double a, double b) { return x < a ? a - x : x > b ? x - b : 0.0; };
-    const Vec3 way = {outside(place.x, low[0], high[0]), outside(place.y, low[1], high[1]),
-                      outside(place.z, low[2], high[2])};
+    const Vec3 way = {outside(place.x, low.x, high.x), outside(place.y, low.y, high.y),
+                      outside(place.z, low.z, high.z)};
     return dot(way, way);
   }
 
-  Vec3 lowest() const { return {low[0], low[1], low[2]}; }
-  Vec3 highest() const { return {high[0], high[1], high[2]}; }
-  Vec3 sides() const { return highest() - lowest(); }
-  Vec3 middle() const { return 0.5 * (lowest() + highest()); }
+  Vec3 sides() const { return high - low; }
+  Vec3 middle() const { return 0.5 * (low + high); }
   double diagonal() const { return norm(sides()); }
   /// The axis of the longest side, the first of equal ones.
   std::size_t longest_axis() const;
-  double longest_side() const { return high[longest_axis()] - low[longest_axis()]; }
+  double longest_side() const { return sides()[longest_axis()]; }
 };
 
 /// Tightest box round points.

@@ -6,7 +6,7 @@
 
 namespace affskel::core {
 
-std::vector<std::uint32_t> first_coincident_point(const std::vector<Vec3>& points) {
+std::vector<std::uint32_t> first_coincident_point(std::span<const Vec3> points) {
   std::vector<std::uint32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0U);
   const auto place = [&](std::uint32_t i) { return std::tie(points[i].x, points[i].y, points[i].z); };

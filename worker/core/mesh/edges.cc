@@ -64,10 +64,7 @@ BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triang
 }
 
 Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles) {
-  return {points, [&](const auto& put) {
-            for (std::uint32_t t = 0; t < triangles.size(); ++t)
-              for (const std::uint32_t v : triangles[t]) put(v, t);
-          }};
+  return holders(points, triangles);
 }
 
 }  // namespace affskel::core

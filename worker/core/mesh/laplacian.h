@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/base/vec3.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {

@@ -10,13 +10,7 @@ namespace {
 class Chainer {
  public:
   Chainer(std::size_t points, std::span<const Segment> segments)
-      : segments_(segments),
-        at_(points,
-            [&](const auto& put) {
-              for (std::uint32_t s = 0; s < segments.size(); ++s)
-                for (const std::uint32_t point : segments[s]) put(point, s);
-            }),
-        used_(segments.size(), false) {}
+      : segments_(segments), at_(holders(points, segments)), used_(segments.size(), false) {}
 
   std::vector<std::vector<std::uint32_t>> run() {
     for (std::uint32_t s = 0; s < segments_.size(); ++s) {

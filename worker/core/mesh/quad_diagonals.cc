@@ -10,11 +10,6 @@ namespace {
 // along the line between the edges' ends, and so hold one triangle twice; or the diagonal is the edge of two
 // triangles of other faces.  The surface then seems not to bound a solid, though its polygons do.
 
-// Both ends of an edge, the smaller first.
-std::uint64_t edge_key(std::uint32_t v, std::uint32_t w) {
-  return (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w);
-}
-
 /// A quadrilateral tip, from, far, to (in this sense), cut along from-to.
 struct Quad {
   std::uint32_t tip, from, far, to;
@@ -32,26 +27,26 @@ Quad quad_of(const Triangle& first, const Triangle& second) {
 class EdgeUse {
  public:
   explicit EdgeUse(std::span<const Triangle> triangles) {
-    keys_.reserve(3 * triangles.size());
+    edges_.reserve(3 * triangles.size());
     for (const Triangle& t : triangles) {
-      for (std::size_t k = 0; k < 3; ++k) keys_.push_back(edge_key(t[k], t[(k + 1) % 3]));
+      for (std::size_t k = 0; k < 3; ++k) edges_.push_back(ascending(t[k], t[(k + 1) % 3]));
     }
-    std::sort(keys_.begin(), keys_.end());
+    std::sort(edges_.begin(), edges_.end());
   }
 
-  std::ptrdiff_t of(std::uint64_t key) const {
-    const auto [first, last] = std::equal_range(keys_.begin(), keys_.end(), key);
-    const auto change = changes_.find(key);
+  std::ptrdiff_t of(const Segment& edge) const {
+    const auto [first, last] = std::equal_range(edges_.begin(), edges_.end(), edge);
+    const auto change = changes_.find(edge);
     return last - first + (change == changes_.end() ? 0 : change->second);
   }
-  void move(std::uint64_t from, std::uint64_t to) {
+  void move(const Segment& from, const Segment& to) {
     changes_[from] -= 2;
     changes_[to] += 2;
   }
 
  private:
-  std::vector<std::uint64_t> keys_;
-  std::map<std::uint64_t, std::ptrdiff_t> changes_;
+  std::vector<Segment> edges_;
+  std::map<Segment, std::ptrdiff_t> changes_;
 };
 
 }  // namespace
@@ -62,7 +57,7 @@ std::size_t turn_doubled_diagonals(std::span<const std::uint32_t> quads, std::ve
   std::size_t turned = 0;
   for (const std::uint32_t i : quads) {
     const Quad q = quad_of(triangles[i], triangles[i + 1]);
-    const std::uint64_t diagonal = edge_key(q.from, q.to), other = edge_key(q.tip, q.far);
+    const Segment diagonal = ascending(q.from, q.to), other = ascending(q.tip, q.far);
     if (use.of(diagonal) <= 2 || use.of(other) != 0) continue;
     triangles[i] = {q.tip, q.from, q.far};
     triangles[i + 1] = {q.far, q.to, q.tip};

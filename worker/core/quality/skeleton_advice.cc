@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <numbers>
@@ -39,13 +38,6 @@ std::size_t points_of_a_sheet(std::size_t points) {
   return static_cast<std::size_t>(n);
 }
 
-std::vector<double> magnitudes(const std::vector<double>& divergence) {
-  std::vector<double> result;
-  result.reserve(divergence.size());
-  for (const double h : divergence) result.push_back(std::abs(h));
-  return result;
-}
-
 std::size_t distinct_normals(const OptimalDirections& optimal) {
   OptimalDirections used = optimal;
   std::sort(used.begin(), used.end());
@@ -53,7 +45,9 @@ std::size_t distinct_normals(const OptimalDirections& optimal) {
   return used.size() - (!used.empty() && used.back() == FieldValue::kNoDirection);
 }
 
+// @param size H, of which the magnitudes count.
 Advice on_threshold(std::vector<double> size, double threshold) {
+  for (double& h : size) h = std::abs(h);
   const double largest = *std::max_element(size.begin(), size.end());
   const std::string found = "no sample point has |H| above the threshold " + base::rounded(threshold, 3);
   if (largest == 0) return {found + ": the optimal normals do not change anywhere.", {}};
@@ -80,10 +74,8 @@ void add_on_few_points(const Lattice& lattice, Advice& advice) {
 // The angle between two normals, from their opening (see ChordShock), in whole degrees.
 std::string degrees(double opening) {
   const double o = std::clamp(opening, 0.0, 1.0);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f",
-                2 * plain_angle(std::sqrt(o), std::sqrt(1 - o)) * (180 / std::numbers::pi));
-  return text;
+  const double angle = 2 * plain_angle(std::sqrt(o), std::sqrt(1 - o)) * (180 / std::numbers::pi);
+  return std::to_string(std::lrint(angle));
 }
 
 // Whether lengths in the lattice's frame are not those of the mesh.
@@ -172,7 +164,7 @@ Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& op
                              const std::vector<double>& divergence, ShockOperator shock_operator,
                              double threshold) {
   if (divergence.empty()) return {"there are no sample points.", {}};
-  Advice advice = on_threshold(magnitudes(divergence), threshold);
+  Advice advice = on_threshold(divergence, threshold);
   advice.text.insert(0, std::string(name_of(shock_operator)) + ": ");
   const std::size_t normals = distinct_normals(optimal);
   if (normals < kFewNormals) {

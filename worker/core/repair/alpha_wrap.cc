@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/unit.h"
 #include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {
@@ -30,10 +31,7 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
     const Vec3 area = twice_area(mesh, t);
     for (const std::uint32_t v : t) normals[v] = normals[v] + area;
   }
-  for (Vec3& normal : normals) {
-    const double length = norm(normal);
-    if (length > 0) normal = (1 / length) * normal;
-  }
+  for (Vec3& normal : normals) normal = unit(normal);
   return normals;
 }
 

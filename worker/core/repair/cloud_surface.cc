@@ -195,8 +195,8 @@ class Surfacing {
     const Vec3 sides = box.sides() + 16 * kCube * Vec3{1, 1, 1};
     cubes.spacing = std::max(kCube, std::cbrt(sides.x * sides.y * sides.z / kMostCubes));
     const Vec3 margin = 8 * cubes.spacing * Vec3{1, 1, 1};
-    cubes.low = box.lowest() - margin;
-    cubes.high = box.highest() + margin;
+    cubes.low = box.low - margin;
+    cubes.high = box.high + margin;
     StopCheck stop(context_);
     // So small that it rules out no cube: of Poisson's function no Lipschitz constant is known.
     const double scale = 1e-9 * cubes.spacing;

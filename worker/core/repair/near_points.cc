@@ -1,7 +1,6 @@
 #include "core/repair/near_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/base/disjoint_sets.h"

@@ -99,6 +99,7 @@ class Mending {
       result_.bulge += hole.bulge;
       const Hole*& seen = hole.filled ? longest : longest_left;
       if (seen == nullptr) seen = &hole;
+      rims_.push_back(hole.point);
     }
     if (count > 0) {
       result_.longest_filled = longest->length;
@@ -120,7 +121,6 @@ class Mending {
     }
     result_.filled_share = added / (area + added);
     result_.mesh = std::move(filled.mesh);
-    for (const Hole& hole : filled.holes) rims_.push_back(hole.point);
   }
 
   // Triangles that hang together by edges.
@@ -243,9 +243,7 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
 
 // What is whole may still be none: two triangles on each other, say.
 void take_volume(RepairedMesh& result, const RepairOptions& options) {
-  SolidOptions solid;
-  solid.check_self_intersections = false;
-  solid.context = options.context;
+  const SolidOptions solid{.check_self_intersections = false, .context = options.context};
   try {
     result.volume = make_solid(result.mesh, solid).volume;
   } catch (const CoreError& error) {

@@ -18,41 +18,18 @@ struct OpenEdge {
   std::uint32_t triangle, corner;  // from this corner to the next
 };
 
-// What may meet a segment thickened by a distance.
-struct Stick {
-  Vec3 from, to;
-  double distance;
-
-  bool meets(const Box& box) const {
-    double low = 0, high = 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double at = from[static_cast<int>(k)], step = to[static_cast<int>(k)] - at;
-      const double below = box.low[k] - distance - at, above = box.high[k] + distance - at;
-      if (step == 0) {
-        if (below > 0 || above < 0) return false;
-        continue;
-      }
-      low = std::max(low, std::min(below / step, above / step));
-      high = std::min(high, std::max(below / step, above / step));
-    }
-    return low <= high;
-  }
-};
-
 class Junctions {
  public:
   Junctions(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
       : points_(points), triangles_(triangles), tolerance_(tolerance) {
-    std::vector<std::uint32_t> ends;
     Edges(points.size(), triangles).for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
       if (sides.size() != 1) return;
       open_.push_back({sides[0].triangle(), sides[0].half_edge % 3});
-      ends.push_back(low);
-      ends.push_back(high);
+      rim_.push_back(low);
+      rim_.push_back(high);
     });
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    rim_ = std::move(ends);
+    std::sort(rim_.begin(), rim_.end());
+    rim_.erase(std::unique(rim_.begin(), rim_.end()), rim_.end());
     std::vector<Box> boxes(rim_.size());
     for (std::size_t r = 0; r < rim_.size(); ++r) boxes[r].include(points[rim_[r]]);
     tree_ = BoxTree(std::move(boxes));
@@ -84,7 +61,7 @@ class Junctions {
     const Vec3 from = points_[a], along = points_[b] - from;
     const double length = norm(along), near = std::min(tolerance_, kOfEdge * length);
     std::vector<std::pair<double, std::uint32_t>> found;
-    tree_.visit(Stick{from, points_[b], near}, [&](std::uint32_t r) {
+    tree_.visit(WayQuery{from, along, near}, [&](std::uint32_t r) {
       const std::uint32_t v = rim_[r];
       const Vec3 way = points_[v] - from;
       const double t = dot(way, along) / length;

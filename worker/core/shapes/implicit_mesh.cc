@@ -66,8 +66,7 @@ class Marcher {
       : f_(f), low_(options.low), half_(options.spacing / 2) {
     const Vec3 size = options.high - options.low;
     for (std::size_t k = 0; k < 3; ++k) {
-      cubes_[k] =
-          std::max(1, static_cast<std::int32_t>(std::ceil(size[static_cast<int>(k)] / options.spacing)));
+      cubes_[k] = std::max(1, static_cast<std::int32_t>(std::ceil(size[k] / options.spacing)));
     }
   }
 

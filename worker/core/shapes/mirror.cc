@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <unordered_map>
+#include <map>
 #include <utility>
 
 #include <vector>
@@ -17,11 +17,10 @@ class Crossings {
   explicit Crossings(std::vector<Vec3>& points) : points_(points) {}
 
   std::uint32_t at(std::uint32_t v, std::uint32_t w) {
-    if (v > w) std::swap(v, w);
-    const std::uint64_t key = (std::uint64_t{v} << 32) | w;
-    const auto [place, is_new] = vertex_.try_emplace(key, static_cast<std::uint32_t>(points_.size()));
+    const auto [place, is_new] =
+        vertex_.try_emplace(ascending(v, w), static_cast<std::uint32_t>(points_.size()));
     if (is_new) {
-      const Vec3 p = points_[v], q = points_[w];
+      const Vec3 p = points_[place->first[0]], q = points_[place->first[1]];
       const double t = p.x / (p.x - q.x);
       points_.push_back({0, p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
     }
@@ -30,7 +29,7 @@ class Crossings {
 
  private:
   std::vector<Vec3>& points_;
-  std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
+  std::map<Segment, std::uint32_t> vertex_;
 };
 
 /// Appends what lies at x >= 0 of a triangle that reaches x > 0.

@@ -51,11 +51,6 @@ Matrix3 rotation(const Quaternion& q) {
           Vec3{2 * (x * z + s * y), 2 * (y * z - s * x), 1 - 2 * (x * x + y * y)}};
 }
 
-// a b^T.
-Matrix3 outer(const Vec3& a, const Vec3& b) {
-  return {b.x * a, b.y * a, b.z * a};
-}
-
 // J and its derivatives by a turn.
 struct Contrast {
   double value = 0;
@@ -90,7 +85,7 @@ class Ascent {
     Matrix3 m{};
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {
-        m = m + (u[static_cast<int>(a)] * u[static_cast<int>(b)]) * moments_[a][b];
+        m = m + (u[a] * u[b]) * moments_[a][b];
       }
     }
     return m;

@@ -51,22 +51,22 @@ Vec3 middle(const Mesh& mesh) {
 
 // The 15 different products of four coordinates.
 constexpr auto kProducts = [] {
-  std::array<std::array<int, 4>, 15> products{};
+  std::array<std::array<std::size_t, 4>, 15> products{};
   std::size_t count = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j)
-      for (int k = j; k < 3; ++k)
-        for (int l = k; l < 3; ++l) products[count++] = {i, j, k, l};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i; j < 3; ++j)
+      for (std::size_t k = j; k < 3; ++k)
+        for (std::size_t l = k; l < 3; ++l) products[count++] = {i, j, k, l};
   return products;
 }();
 
 // The sum over all 24 permutations of the four factors w_i, w_j, w_k, w_l: by the lengths of their cycles
 // 1+1+1+1, 2+1+1 (six ways), 2+2 (three), 3+1 (four, each in two senses) and 4 (six senses).
-double permutation_sum(const Corners& t, const std::array<int, 4>& product) {
+double permutation_sum(const Corners& t, const std::array<std::size_t, 4>& product) {
   const auto [i, j, k, l] = product;
   const Vec3 &p = t.p, &q = t.q, &r = t.r, s = p + q + r;
-  const auto pair = [&](int a, int b) { return p[a] * p[b] + q[a] * q[b] + r[a] * r[b]; };
-  const auto triple = [&](int a, int b, int c) {
+  const auto pair = [&](std::size_t a, std::size_t b) { return p[a] * p[b] + q[a] * q[b] + r[a] * r[b]; };
+  const auto triple = [&](std::size_t a, std::size_t b, std::size_t c) {
     return p[a] * p[b] * p[c] + q[a] * q[b] * q[c] + r[a] * r[b] * r[c];
   };
   const double ij = pair(i, j), ik = pair(i, k), il = pair(i, l), jk = pair(j, k), jl = pair(j, l),
@@ -125,20 +125,16 @@ FourthMoments fourth_moments(const Mesh& mesh, double volume, const Vec3& centre
     const Corners mapped{map * c.p, map * c.q, map * c.r};
     for (std::size_t n = 0; n < sum.size(); ++n) sum[n].add(six * permutation_sum(mapped, kProducts[n]));
   });
-  const auto value = [&](std::array<int, 4> product) {
+  const auto value = [&](std::array<std::size_t, 4> product) {
     std::sort(product.begin(), product.end());
     const auto at = std::find(kProducts.begin(), kProducts.end(), product) - kProducts.begin();
     return sum[static_cast<std::size_t>(at)].value() / (6 * 840 * volume);
   };
   FourthMoments result{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      Matrix3& m = result[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      for (int k = 0; k < 3; ++k) {
-        m[static_cast<std::size_t>(k)] = {value({i, j, k, 0}), value({i, j, k, 1}), value({i, j, k, 2})};
-      }
-    }
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k)
+        result[i][j][k] = {value({i, j, k, 0}), value({i, j, k, 1}), value({i, j, k, 2})};
   return result;
 }
 

@@ -26,17 +26,6 @@ constexpr int kUp = 2;
 
 using Extremes = std::array<std::uint32_t, 6>;  // vertices with the least and greatest x, y, z
 
-// The ray up from a point, as far as it is of interest.
-struct UpwardRay {
-  const Vec3& from;
-  double end = std::numeric_limits<double>::infinity();  // a height
-
-  bool meets(const Box& box) const {
-    return box.low[0] <= from.x && from.x <= box.high[0] && box.low[1] <= from.y && from.y <= box.high[1] &&
-           box.high[2] >= from.z && box.low[2] <= end;
-  }
-};
-
 class Nester {
  public:
   Nester(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_shell, std::uint32_t shells,
@@ -93,9 +82,8 @@ class Nester {
   }
 
   void extend(Extremes& extremes, std::uint32_t v) const {
-    for (int k = 0; k < 3; ++k) {
-      std::uint32_t& least = extremes[static_cast<std::size_t>(2 * k)];
-      std::uint32_t& most = extremes[static_cast<std::size_t>(2 * k + 1)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t &least = extremes[2 * k], &most = extremes[2 * k + 1];
       if (least == kNone || mesh_.points[v][k] < mesh_.points[least][k]) least = v;
       if (most == kNone || mesh_.points[v][k] > mesh_.points[most][k]) most = v;
     }
@@ -148,7 +136,7 @@ class Nester {
 
   // The surface of the first triangle above p, of a group placed already; kNone when there is none.
   std::uint32_t first_met(const Vec3& p) {
-    UpwardRay ray{p};
+    WayQuery ray = upward(p, std::numeric_limits<double>::infinity());
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t first = kNone;
     cross(ray, [&](std::uint32_t t, double distance) {
@@ -158,7 +146,7 @@ class Nester {
       if (!group.placed || !(group.top > p.z)) return;
       nearest = distance;
       first = t;
-      ray.end = p.z + distance;
+      ray.last = distance;
     });
     return first == kNone ? kNone : triangle_shell_[first];
   }
@@ -166,7 +154,7 @@ class Nester {
   // The surfaces of a group that p is inside of, ascending.
   std::vector<std::uint32_t> crossed_oddly(const Vec3& p, std::uint32_t group) {
     std::vector<std::uint32_t> crossed;
-    cross({p, groups_[group].top}, [&](std::uint32_t t, double) {
+    cross(upward(p, groups_[group].top - p.z), [&](std::uint32_t t, double) {
       const std::uint32_t shell = triangle_shell_[t];
       if (group_[shell] != group) return;
       if (odd_[shell] == 0) crossed.push_back(shell);
@@ -200,9 +188,11 @@ class Nester {
     for (const std::uint32_t s : round) take_round(s, nesting_.depth[inner], nesting_.parent[inner]);
   }
 
+  static WayQuery upward(const Vec3& p, double length) { return {p, {0, 0, 1}, 0, length}; }
+
   // Calls visit(triangle, distance) for what the ray crosses; what lies at its start is not crossed.
   template <class Visit>
-  void cross(const UpwardRay& ray, Visit visit) {
+  void cross(const WayQuery& ray, Visit visit) {
     tree_.visit(ray, [&](std::uint32_t at) {
       ++nesting_.tests;
       stop_.did(kOperationsPerTest);

@@ -1,6 +1,5 @@
 #include "core/solid/shells.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/axis_choice.h"
@@ -42,23 +41,11 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  double length() const { return high - low; }
-};
-
 // Area of the rectangle with a side along the unit vector e.
 double area_along(const std::vector<Vec2>& hull, const Vec2& e) {
-  Range along, across;
-  for (const Vec2& p : hull) {
-    along.add(e.x * p.x + e.y * p.y);
-    across.add(e.x * p.y - e.y * p.x);
-  }
-  return along.length() * across.length();
+  Box box;  // along e, and across
+  for (const Vec2& p : hull) box.include(Vec3{e.x * p.x + e.y * p.y, e.x * p.y - e.y * p.x, 0});
+  return box.sides().x * box.sides().y;
 }
 
 // The unit vector along the hull's best edge, turned by right angles to be the one nearest to (1, 0).

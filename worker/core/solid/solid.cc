@@ -192,9 +192,9 @@ class SolidBuilder {
     int exponent = 0;
     if (std::frexp(side, &exponent) == 0.5) --exponent;
     solid_.exponent = exponent;
-    solid_.bbox_min = box.lowest();
-    solid_.bbox_max = box.highest();
-    solid_.centre = box.lowest() + 0.5 * box.sides();
+    solid_.bbox_min = box.low;
+    solid_.bbox_max = box.high;
+    solid_.centre = box.low + 0.5 * box.sides();
     for (Vec3& p : mesh.points) {
       p = p - solid_.centre;
       p = {std::ldexp(p.x, -exponent), std::ldexp(p.y, -exponent), std::ldexp(p.z, -exponent)};
@@ -333,11 +333,9 @@ class SolidBuilder {
   }
 
   void look_for_self_intersections() {
-    SelfIntersectionOptions options;
     // Folded noise has a few crossings per triangle.  More could fill the memory, and would tell nothing new.
-    options.max_pairs = 32 * solid_.mesh.triangles.size();
-    options.threads = options_.threads;
-    options.context = options_.context;
+    const SelfIntersectionOptions options{32 * solid_.mesh.triangles.size(), options_.threads,
+                                          options_.context};
     const auto pairs = self_intersections(solid_.mesh, options);
     if (pairs.empty()) return;
     solid_.self_intersecting = true;
@@ -372,10 +370,6 @@ class SolidBuilder {
 };
 
 }  // namespace
-
-double Solid::scale() const {
-  return std::ldexp(1.0, exponent);
-}
 
 Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
                  const std::vector<std::uint32_t>& triangle_line) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -58,7 +59,7 @@ struct Solid {
   std::vector<MeshNote> notes;
 
   /// Mesh units per scaled unit, 2^exponent.
-  double scale() const;
+  double scale() const { return std::ldexp(1.0, exponent); }
 };
 
 /// Checks that the mesh bounds a solid and normalises it.

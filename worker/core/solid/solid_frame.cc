@@ -110,7 +110,7 @@ class Frame {
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::sqrt(eigen.values[k]);
       const Vec3& e = eigen.vectors[k];
-      root = root + Matrix3{length * e.x * e, length * e.y * e, length * e.z * e};
+      root = root + outer(e, length * e);
       whitening = whitening + Matrix3{e.x / length * e, e.y / length * e, e.z / length * e};
     }
     const IndependentAxes found =
@@ -128,7 +128,7 @@ class Frame {
     Matrix3 covariance{};
     for (const Vec3& p : mesh_.points) {
       const Vec3 q = p - mean;
-      covariance = covariance + Matrix3{share * q.x * q, share * q.y * q, share * q.z * q};
+      covariance = covariance + outer(q, share * q);
     }
     return covariance;
   }

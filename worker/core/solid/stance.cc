@@ -17,8 +17,6 @@
 namespace affskel::core {
 namespace {
 
-using Axes = std::array<double, 3>;
-
 constexpr std::size_t kSamples = 20000;
 constexpr std::size_t kMirrored = 8;   // every eighth sample: each takes a search for the nearest triangle
 constexpr double kMirrorImage = 0.05;  // mean distance of the halves by the side across: bodies 0.004 to 0.03
@@ -35,19 +33,15 @@ constexpr double kClearlyWider = 1.25;   // a body with its arms hanging against
 constexpr double kHeadAside = 0.1;       // by the longest side: animals 0.11 to 0.38, bodies to 0.04
 constexpr double kFeetAside = 0.02;      // bodies 0.04 to 0.05
 
-Axes components(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 AxisDirection usual_front(AxisDirection up) {
   return up.axis == 2 ? AxisDirection{1, true} : AxisDirection{2, false};
 }
 
 class Shape {
  public:
-  Shape(const Mesh& mesh, std::vector<Vec3> places) : distance_(mesh), box_(box_of(places)) {
-    for (const Vec3& place : places) places_.push_back(components(place));
-    for (const Axes& place : places_)
+  Shape(const Mesh& mesh, std::vector<Vec3> places)
+      : distance_(mesh), places_(std::move(places)), box_(box_of(places_)) {
+    for (const Vec3& place : places_)
       for (std::size_t a = 0; a < 3; ++a) middle_[a] += place[a] / double(places_.size());
     for (std::size_t a = 0; a < 3; ++a) unlikeness_[a] = unlike_mirror_image(a);
     for (std::size_t a = 0; a < 3; ++a)
@@ -93,7 +87,7 @@ class Shape {
   double unlike_mirror_image(std::size_t axis) const {
     double least = HUGE_VAL;
     for (const double mirror : {(box_.low[axis] + box_.high[axis]) / 2, middle_[axis]}) {
-      const double distance = mean_distance([&](Axes& place) { place[axis] = 2 * mirror - place[axis]; });
+      const double distance = mean_distance([&](Vec3& place) { place[axis] = 2 * mirror - place[axis]; });
       least = std::min(least, distance / side(axis));
     }
     return least;
@@ -103,7 +97,7 @@ class Shape {
   double unlike_turned(std::size_t axis) const {
     const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
     const double centre_a = (box_.low[a] + box_.high[a]) / 2, centre_b = (box_.low[b] + box_.high[b]) / 2;
-    const double distance = mean_distance([&](Axes& place) {
+    const double distance = mean_distance([&](Vec3& place) {
       const double from_a = place[a] - centre_a;
       place[a] = centre_a + (place[b] - centre_b);
       place[b] = centre_b - from_a;
@@ -117,9 +111,9 @@ class Shape {
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t p = 0; p < places_.size(); p += kMirrored, ++count) {
-      Axes image = places_[p];
+      Vec3 image = places_[p];
       map(image);
-      sum += distance_.nearest({image[0], image[1], image[2]});
+      sum += distance_.nearest(image);
     }
     return sum / double(count);
   }
@@ -127,7 +121,7 @@ class Shape {
   // How much of the surface lies at the two ends.
   double share_of_ends(std::size_t axis) const {
     const double end = kFeet * side(axis);
-    const auto count = std::count_if(places_.begin(), places_.end(), [&](const Axes& place) {
+    const auto count = std::count_if(places_.begin(), places_.end(), [&](const Vec3& place) {
       return place[axis] <= box_.low[axis] + end || place[axis] >= box_.high[axis] - end;
     });
     return double(count) / double(places_.size());
@@ -141,8 +135,8 @@ class Shape {
   // The box round what it stands on, as a share of the whole's base; 0 when it would fall over.
   double spread_of_feet(std::size_t up) const {
     Box feet;
-    for (const Axes& place : places_)
-      if (place[up] <= box_.low[up] + kFeet * side(up)) feet.include(Box{place, place});
+    for (const Vec3& place : places_)
+      if (place[up] <= box_.low[up] + kFeet * side(up)) feet.include(place);
     double share = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       if (a == up) continue;
@@ -156,7 +150,7 @@ class Shape {
   double beside(AxisDirection up, double from, double to, std::size_t axis) const {
     double sum = 0;
     std::size_t count = 0;
-    for (const Axes& place : places_) {
+    for (const Vec3& place : places_) {
       const double share = (place[up.axis] - box_.low[up.axis]) / side(up.axis);
       const double height = up.minus ? 1 - share : share;
       if (!(height >= from && height <= to)) continue;
@@ -167,9 +161,9 @@ class Shape {
   }
 
   DistanceToMesh distance_;
-  std::vector<Axes> places_;
+  std::vector<Vec3> places_;
   Box box_;
-  Axes middle_{}, unlikeness_{};
+  Vec3 middle_, unlikeness_;
   std::array<bool, 3> is_flat_{};
 };
 
@@ -188,8 +182,9 @@ std::vector<Vec3> places_on(const Mesh& mesh) {
 }  // namespace
 
 Vec3 AxisDirection::vector() const {
-  const double length = minus ? -1 : 1;
-  return {axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0};
+  Vec3 vector;
+  vector[axis] = minus ? -1 : 1;
+  return vector;
 }
 
 Vec3 Stance::right() const {

@@ -1,6 +1,5 @@
 #include "core/spatial/axis_rays.h"
 
-#include <cstddef>
 #include <limits>
 
 #include "core/spatial/ray_crossing.h"
@@ -12,8 +11,8 @@ AxisRays::AxisRays(const Mesh& mesh, unsigned threads) : mesh_(mesh), tree_(boxe
 // A ray along the axis that leaves the solid through a triangle sees it wind counter-clockwise.
 AxisRays::Hit AxisRays::shoot(const Vec3& q, int axis, bool upward) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  Box ray{{q.x, q.y, q.z}, {q.x, q.y, q.z}};
-  (upward ? ray.high : ray.low)[static_cast<std::size_t>(axis)] = upward ? kFar : -kFar;
+  Box ray{q, q};
+  (upward ? ray.high : ray.low)[axis] = upward ? kFar : -kFar;
   Hit hit;
   double nearest = kFar;
   tree_.visit(ray, [&](std::uint32_t index) {

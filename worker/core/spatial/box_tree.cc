@@ -7,13 +7,19 @@
 #include "core/base/parallel.h"
 
 namespace affskel::core {
-namespace {
 
-double centre_of(const Box& box, std::size_t axis) {
-  return box.low[axis] / 2 + box.high[axis] / 2;
+bool WayQuery::meets(const Box& box) const {
+  double begin = 0, end = last;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double to_low = box.low[k] - slack - from[k], to_high = box.high[k] + slack - from[k];
+    if (way[k] == 0 && (to_low > 0 || to_high < 0)) return false;
+    if (way[k] == 0) continue;
+    const double a = to_low / way[k], b = to_high / way[k];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return !(begin > end);
 }
-
-}  // namespace
 
 BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
   std::iota(items_.begin(), items_.end(), 0u);
@@ -33,20 +39,8 @@ void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t coun
   nodes_[index] = {box, first, count, 0, max_index};
   if (count <= kLeafItems) return;
 
-  const std::size_t axis = longest_axis(first, count);
-  const auto centre = [&](std::uint32_t i) { return centre_of(boxes_[i], axis); };
+  const auto centre = [&](std::uint32_t i) { return 0.5 * boxes_[i].low + 0.5 * boxes_[i].high; };
   halve_node(nodes_, index, items_, threads, centre, [this](auto... half) { build(half...); });
-}
-
-// Of the centres, not of the box: the faces of boxes within boxes all have their centres in the middle of the
-// longest sides.  Halved there, by nothing but their indices, each half would fill the whole box again.
-std::size_t BoxTree::longest_axis(std::uint32_t first, std::uint32_t count) const {
-  Box centres;
-  for (std::uint32_t i = first; i < first + count; ++i) {
-    const Box& box = boxes_[items_[i]];
-    centres.include(Vec3{centre_of(box, 0), centre_of(box, 1), centre_of(box, 2)});
-  }
-  return centres.longest_axis();
 }
 
 }  // namespace affskel::core

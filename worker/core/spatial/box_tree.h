@@ -8,6 +8,15 @@
 
 namespace affskel::core {
 
+/// The boxes that the way from a place on, t * way for t of 0 to `last`, comes within `slack` of, along each axis.
+struct WayQuery {
+  Vec3 from, way;
+  double slack = 0;
+  double last = 1;
+
+  bool meets(const Box& box) const;
+};
+
 /// A balanced tree over boxes for overlap queries: self-intersection, rays, membership.  Immutable after
 /// construction; queries from several threads are safe.
 class BoxTree {
@@ -45,7 +54,6 @@ class BoxTree {
   };
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
-  std::size_t longest_axis(std::uint32_t first, std::uint32_t count) const;
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> items_;

@@ -18,14 +18,6 @@ constexpr std::uint32_t kMaxLoose = 64;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
-Box widened(Box box, double by) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] -= by;
-    box.high[k] += by;
-  }
-  return box;
-}
-
 // Holds the arc that side pq draws on the unit sphere round v.  The arc lies within its rise of the chord.
 // Two triangles pqv and rsv, each with an area, have more in common than v only if their arcs meet.
 Box arc_box(const Vec3& v, const Vec3& p, const Vec3& q) {
@@ -38,7 +30,7 @@ Box arc_box(const Vec3& v, const Vec3& p, const Vec3& q) {
   const Vec3 b = {to_q.x / size_q, to_q.y / size_q, to_q.z / size_q};
   const Vec3 unit_p = unit(a), unit_q = unit(b);
   const double rise = 1 - norm(0.5 * (unit_p + unit_q));
-  return widened(box_of(std::array{unit_p, unit_q}), rise + 16 * kEps);
+  return box_of(std::array{unit_p, unit_q}).widened(rise + 16 * kEps);
 }
 
 std::vector<Box> arc_boxes(const Mesh& mesh, std::uint32_t vertex, const std::vector<std::uint32_t>& fan) {

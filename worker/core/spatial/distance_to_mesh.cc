@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
+
+#include "core/mesh/unused_points.h"
 
 namespace affskel::core {
 namespace {
@@ -27,14 +30,9 @@ struct Nearer {
 };
 
 // The points that triangles use.
-std::vector<Vec3> corners_of(const Mesh& mesh) {
-  std::vector<char> used(mesh.points.size(), 0);
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) used[corner] = 1;
-  std::vector<Vec3> corners;
-  for (std::size_t p = 0; p < used.size(); ++p)
-    if (used[p]) corners.push_back(mesh.points[p]);
-  return corners;
+std::vector<Vec3> corners_of(Mesh mesh) {
+  drop_unused_points(mesh);
+  return std::move(mesh.points);
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/mesh/box.h"
 
 // What the balanced trees of boxes have in common.  Their nodes lie in one array, the root first; a node
 // covers the items [first, first + count), its left half is the next node, its right half the node `right`, 0
@@ -38,16 +40,28 @@ void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit)
   }
 }
 
-/// Splits the items of nodes[index], whose members but `right` are set, at the median of (key(item), item),
-/// and calls `build(index, first, count, threads)` for both halves, at the same time when `threads` > 1.
-template <class Node, class Key, class Build>
-void halve_node(std::vector<Node>& nodes, std::uint32_t index, std::vector<std::uint32_t>& items,
-                unsigned threads, Key key, Build build) {
+/// Puts `left` of some items in front of the others, by their centres along the axis in which these are spread most, of
+/// equal ones by their numbers.  The centres', not the boxes': the faces of boxes within boxes all have their centres in
+/// the middle of the longest sides.  Halved there, by nothing but their numbers, each half would fill the whole box again.
+/// @param centre centre(item): a Vec3.
+template <class Centre>
+void halve_items(std::span<std::uint32_t> items, std::size_t left, const Centre& centre) {
+  Box centres;
+  for (const std::uint32_t item : items) centres.include(centre(item));
+  const std::size_t axis = centres.longest_axis();
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
+                   [&](std::uint32_t i, std::uint32_t j) {
+                     return std::pair(centre(i)[axis], i) < std::pair(centre(j)[axis], j);
+                   });
+}
+
+/// Splits the items of nodes[index], whose members but `right` are set, by halve_items(), and calls
+/// `build(index, first, count, threads)` for both halves, at the same time when `threads` > 1.
+template <class Node, class Centre, class Build>
+void halve_node(std::vector<Node>& nodes, std::uint32_t index, std::span<std::uint32_t> items,
+                unsigned threads, const Centre& centre, Build build) {
   const std::uint32_t first = nodes[index].first, count = nodes[index].count, left = count / 2;
-  const auto begin = items.begin() + first;
-  std::nth_element(begin, begin + left, begin + count, [&](std::uint32_t i, std::uint32_t j) {
-    return std::pair(key(i), i) < std::pair(key(j), j);
-  });
+  halve_items(items.subspan(first, count), left, centre);
   const std::uint32_t right = index + 1 + halving_nodes(left, kLeafItems);
   nodes[index].right = right;
   parallel_halves(

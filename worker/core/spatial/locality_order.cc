@@ -28,14 +28,13 @@ std::uint64_t spread_cell(double x, double low, double scale) {
 
 std::vector<std::uint32_t> locality_order(const std::vector<Vec3>& points) {
   const Box box = box_of(points);
-  const Vec3 low = box.lowest();
   const double side = box.longest_side();
   const double scale = side > 0 ? kMaxCell / side : 0;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
   places.reserve(points.size());
   for (const Vec3& p : points) {
-    places.emplace_back(spread_cell(p.x, low.x, scale) | spread_cell(p.y, low.y, scale) << 1 |
-                            spread_cell(p.z, low.z, scale) << 2,
+    places.emplace_back(spread_cell(p.x, box.low.x, scale) | spread_cell(p.y, box.low.y, scale) << 1 |
+                            spread_cell(p.z, box.low.z, scale) << 2,
                         static_cast<std::uint32_t>(places.size()));
   }
   std::sort(places.begin(), places.end());

@@ -56,22 +56,22 @@ OrientedBox oriented_box(const Corners& corners) {
 }
 
 OrientedBox oriented_box(const Box& box, double unit) {
-  const Vec3 low = unit * box.lowest(), high = unit * box.highest();
+  const Vec3 low = unit * box.low, high = unit * box.high;
   return {kIdentity3, 0.5 * (low + high), 0.5 * (high - low)};
 }
 
 bool surely_apart(const OrientedBox& a, const OrientedBox& b) {
   const Vec3 between = b.centre - a.centre;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3& axis = a.axes[static_cast<std::size_t>(k)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& axis = a.axes[k];
     if (std::abs(dot(axis, between)) > a.half[k] + reach(b.axes, b.half, axis) + kMargin) return true;
   }
   return false;
 }
 
 bool surely_apart(const OrientedBox& box, const Corners& corners) {
-  for (int k = 0; k < 3; ++k) {
-    const Vec3& axis = box.axes[static_cast<std::size_t>(k)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& axis = box.axes[k];
     const double p = dot(axis, corners[0] - box.centre), q = dot(axis, corners[1] - box.centre),
                  r = dot(axis, corners[2] - box.centre), most = box.half[k] + kMargin;
     if (std::min({p, q, r}) > most || std::max({p, q, r}) < -most) return true;

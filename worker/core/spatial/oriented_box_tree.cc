@@ -34,9 +34,8 @@ void OrientedBoxTree::build(std::uint32_t index, std::uint32_t first, std::uint3
   if (count <= kLeafItems) return;
 
   // By their centroids: slivers side by side all reach as far, in boxes much longer than wide.
-  const int axis = longest_axis(first, count);
-  const auto place = [&](std::uint32_t i) { return corner_sum(triangles_.corners(i))[axis]; };
-  halve_node(nodes_, index, members_, threads, place, [this](auto... half) { build(half...); });
+  const auto centroid = [&](std::uint32_t i) { return corner_sum(triangles_.corners(i)); };
+  halve_node(nodes_, index, members_, threads, centroid, [this](auto... half) { build(half...); });
 }
 
 // Along the principal axes of the corners.
@@ -50,19 +49,12 @@ OrientedBox OrientedBoxTree::box_round(std::uint32_t first, std::uint32_t count)
   for (std::uint32_t m = first; m < first + count; ++m) {
     for (const Vec3& p : triangles_.corners(members_[m])) {
       const Vec3 q = p - mean;
-      covariance = covariance + Matrix3{q.x * q, q.y * q, q.z * q};
+      covariance = covariance + outer(q, q);
     }
   }
   OrientedExtent extent(symmetric_eigen(covariance).vectors);
   for (std::uint32_t m = first; m < first + count; ++m) extent.include(triangles_.corners(members_[m]));
   return extent.box();
-}
-
-int OrientedBoxTree::longest_axis(std::uint32_t first, std::uint32_t count) const {
-  Box box;
-  for (std::uint32_t m = first; m < first + count; ++m)
-    box.include(corner_sum(triangles_.corners(members_[m])));
-  return static_cast<int>(box.longest_axis());
 }
 
 }  // namespace affskel::core

@@ -42,7 +42,6 @@ class OrientedBoxTree {
 
   void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
   OrientedBox box_round(std::uint32_t first, std::uint32_t count) const;
-  int longest_axis(std::uint32_t first, std::uint32_t count) const;
 
   UnitTriangles triangles_;
   std::vector<std::uint32_t> members_;

@@ -9,16 +9,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/mesh/box.h"
+#include "core/mesh/coincident_points.h"
 #include "core/mesh/unused_points.h"
 
 namespace affskel::core {
@@ -60,7 +59,7 @@ std::optional<std::vector<Vec3>> lattice_coordinates(std::span<const Vec3> point
   if (!(spacing > 0)) return std::nullopt;
   constexpr double kTolerance = 1e-6;
   constexpr double kMaxSteps = 1 << 24;
-  const Vec3 low = box_of(points).lowest();
+  const Vec3 low = box_of(points).low;
   bool whole = true;
   const auto snap = [&](double difference) {
     const double steps = difference / spacing, nearest = std::round(steps);
@@ -78,16 +77,10 @@ std::optional<std::vector<Vec3>> lattice_coordinates(std::span<const Vec3> point
 
 /// The distinct points, each with the index of its first copy.
 std::vector<std::pair<Point, std::uint32_t>> distinct(std::span<const Vec3> points) {
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t i) { return std::tuple(points[i].x, points[i].y, points[i].z, i); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
+  const std::vector<std::uint32_t> first = first_coincident_point(points);
   std::vector<std::pair<Point, std::uint32_t>> sites;
-  sites.reserve(points.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const Vec3& p = points[order[k]];
-    if (k == 0 || !(p == points[order[k - 1]])) sites.emplace_back(Point(p.x, p.y, p.z), order[k]);
-  }
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (first[i] == i) sites.emplace_back(Point(points[i].x, points[i].y, points[i].z), i);
   return sites;
 }
 

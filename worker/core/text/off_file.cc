@@ -12,10 +12,11 @@
 namespace affskel::core {
 namespace {
 
+constexpr std::uint64_t kMaxElements = std::uint64_t{1} << 28;
+
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const ReadOffOptions& options)
-      : rows_(bytes), options_(options), stop_(options.context) {}
+  OffReader(std::string_view bytes, const ReadOffOptions& options) : rows_(bytes), stop_(options.context) {}
 
   OffMesh run() {
     read_header();
@@ -33,14 +34,14 @@ class OffReader {
     const std::string first = quoted_excerpt(rows_.words()[0]);
     std::uint64_t more = 1;
     while (rows_.next()) ++more;
-    fail_at_line(line, "more rows than the " + std::to_string(vertex_count_) + " vertices and " +
-                           std::to_string(face_count_) + " faces announced: " + first +
-                           "; if they are faces, announce " + std::to_string(face_count_ + more) +
-                           " in line " + std::to_string(counts_line_));
+    fail_at(line, "more rows than the " + std::to_string(vertex_count_) + " vertices and " +
+                      std::to_string(face_count_) + " faces announced: " + first +
+                      "; if they are faces, announce " + std::to_string(face_count_ + more) + " in line " +
+                      std::to_string(counts_line_));
   }
 
   void read_header() {
-    if (!rows_.next()) fail_at_line(1, "the file is empty; expected an OFF header");
+    if (!rows_.next()) fail_at(1, "the file is empty; expected an OFF header");
     std::string_view word = rows_.words()[0];
     const auto take = [&word](std::string_view prefix) {
       const bool taken = word.starts_with(prefix);
@@ -55,25 +56,25 @@ class OffReader {
       word.remove_prefix(1);
     }
     if (word == "nOFF" || word == "4nOFF") {
-      fail_at_line(rows_.line(), "points of any number of coordinates (" + std::string(word) +
-                                     ") are not read; expected [ST][C][N][4]OFF");
+      fail_at(rows_.line(), "points of any number of coordinates (" + std::string(word) +
+                                ") are not read; expected [ST][C][N][4]OFF");
     }
     if (word != "OFF") {
-      fail_at_line(rows_.line(), "not an OFF file: starts with " + quoted_excerpt(rows_.words()[0]) +
-                                     ", expected the header [ST][C][N][4]OFF");
+      fail_at(rows_.line(), "not an OFF file: starts with " + quoted_excerpt(rows_.words()[0]) +
+                                ", expected the header [ST][C][N][4]OFF");
     }
     rows_.drop_first_word();
     if (!rows_.words().empty() && rows_.words()[0] == "BINARY") {
-      fail_at_line(rows_.line(), "binary OFF where text is wanted");
+      fail_at(rows_.line(), "binary OFF where text is wanted");
     }
   }
 
   void read_counts() {
-    if (rows_.words().empty() && !rows_.next()) fail_at_line(rows_.line(), "the file ends before the counts");
+    if (rows_.words().empty() && !rows_.next()) fail_at(rows_.line(), "the file ends before the counts");
     const auto& words = rows_.words();
     if (words.size() != 2 && words.size() != 3) {
-      fail_at_line(rows_.line(), "expected the counts of vertices, faces and (optionally) edges, found " +
-                                     std::to_string(words.size()) + " words");
+      fail_at(rows_.line(), "expected the counts of vertices, faces and (optionally) edges, found " +
+                                std::to_string(words.size()) + " words");
     }
     vertex_count_ = parse_count(words[0], rows_.line(), "the vertex count");
     face_count_ = parse_count(words[1], rows_.line(), "the face count");
@@ -85,15 +86,15 @@ class OffReader {
 
   // Refuses what cannot be true before anything is allocated; a row has at least min_bytes bytes.
   void check_count(std::uint64_t count, const char* what, std::uint64_t min_bytes) const {
-    if (count > options_.max_elements) {
+    if (count > kMaxElements) {
       throw CoreError(CoreError::Code::kLimit,
                       "line " + std::to_string(rows_.line()) + ": " + std::to_string(count) + " " + what +
-                          " announced, at most " + std::to_string(options_.max_elements) + " are supported",
+                          " announced, at most " + std::to_string(kMaxElements) + " are supported",
                       rows_.line());
     }
     if (count > rows_.bytes_left() / min_bytes + 1) {
-      fail_at_line(rows_.line(), std::to_string(count) + " " + what + " announced, but only " +
-                                     std::to_string(rows_.bytes_left()) + " bytes follow");
+      fail_at(rows_.line(), std::to_string(count) + " " + what + " announced, but only " +
+                                std::to_string(rows_.bytes_left()) + " bytes follow");
     }
   }
 
@@ -109,11 +110,11 @@ class OffReader {
       const bool fits =
           colour_ ? words.size() == base + 3 || words.size() == base + 4 : words.size() == base + unpromised_;
       if (!fits) {
-        fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " has " + std::to_string(words.size()) +
-                                       (unpromised_ > 0 ? " numbers, those before have "
-                                                        : " numbers, the header promises ") +
-                                       std::to_string(base + unpromised_ + (colour_ ? 3 : 0)) +
-                                       (colour_ ? " or " + std::to_string(base + 4) : std::string()));
+        fail_at(rows_.line(),
+                "vertex " + std::to_string(v) + " has " + std::to_string(words.size()) +
+                    (unpromised_ > 0 ? " numbers, those before have " : " numbers, the header promises ") +
+                    std::to_string(base + unpromised_ + (colour_ ? 3 : 0)) +
+                    (colour_ ? " or " + std::to_string(base + 4) : std::string()));
       }
       for (std::size_t i = coordinates(); i < words.size(); ++i)
         parse_finite(words[i], rows_.line(), "vertex attribute");
@@ -132,7 +133,7 @@ class OffReader {
     if (!homogeneous_) return p;
     const double w = coordinate(3);
     const Vec3 at{p.x / w, p.y / w, p.z / w};
-    if (!is_finite(at)) fail_at_line(rows_.line(), "vertex " + std::to_string(v) + " lies at infinity");
+    if (!is_finite(at)) fail_at(rows_.line(), "vertex " + std::to_string(v) + " lies at infinity");
     return at;
   }
 
@@ -156,17 +157,17 @@ class OffReader {
     const auto& words = rows_.words();
     const std::uint64_t sides = parse_count(words[0], rows_.line(), "the number of sides");
     if (sides < 3) {
-      fail_at_line(rows_.line(),
-                   "face " + std::to_string(f) + " has " + std::to_string(sides) + " sides, needs 3");
+      fail_at(rows_.line(),
+              "face " + std::to_string(f) + " has " + std::to_string(sides) + " sides, needs 3");
     }
     if (words.size() - 1 < sides) {
-      fail_at_line(rows_.line(), "face " + std::to_string(f) + " announces " + std::to_string(sides) +
-                                     " vertices, the line has " + std::to_string(words.size() - 1));
+      fail_at(rows_.line(), "face " + std::to_string(f) + " announces " + std::to_string(sides) +
+                                " vertices, the line has " + std::to_string(words.size() - 1));
     }
     const std::size_t extra = words.size() - 1 - sides;
     if (extra == 2 || extra > 4) {
-      fail_at_line(rows_.line(), "face " + std::to_string(f) + ": " + std::to_string(extra) +
-                                     " numbers after the vertices; a colour has 1, 3 or 4");
+      fail_at(rows_.line(), "face " + std::to_string(f) + ": " + std::to_string(extra) +
+                                " numbers after the vertices; a colour has 1, 3 or 4");
     }
     for (std::size_t i = 1 + sides; i < words.size(); ++i) parse_finite(words[i], rows_.line(), "colour");
     read_corners(f, sides);
@@ -185,16 +186,16 @@ class OffReader {
     for (std::uint64_t i = 0; i < sides; ++i) {
       const std::uint64_t v = parse_count(rows_.words()[1 + i], rows_.line(), "a vertex index");
       if (v >= vertex_count_) {
-        fail_at_line(rows_.line(), "face " + std::to_string(f) + " uses vertex " + std::to_string(v) +
-                                       "; indices run from 0 to " + std::to_string(vertex_count_ - 1));
+        fail_at(rows_.line(), "face " + std::to_string(f) + " uses vertex " + std::to_string(v) +
+                                  "; indices run from 0 to " + std::to_string(vertex_count_ - 1));
       }
       corners_.push_back(static_cast<std::uint32_t>(v));
     }
     // A triangle with a corner twice has no area, which is for users of the mesh to judge.
     if (sides == 3) return;
     if (const auto twice = repeated_corner()) {
-      fail_at_line(rows_.line(),
-                   "face " + std::to_string(f) + " uses vertex " + std::to_string(*twice) + " twice");
+      fail_at(rows_.line(),
+              "face " + std::to_string(f) + " uses vertex " + std::to_string(*twice) + " twice");
     }
   }
 
@@ -206,14 +207,13 @@ class OffReader {
   }
 
   [[noreturn]] void ends_early(const char* what, std::uint64_t at, std::uint64_t count) const {
-    fail_at_line(rows_.line(), "the file ends after " + std::to_string(at) + " of " + std::to_string(count) +
-                                   " " + what + " rows");
+    fail_at(rows_.line(), "the file ends after " + std::to_string(at) + " of " + std::to_string(count) + " " +
+                              what + " rows");
   }
 
   static constexpr std::uint64_t kStepsPerRow = 64;
 
   TextRows rows_;
-  ReadOffOptions options_;
   StopCheck stop_;
   bool texture_ = false, colour_ = false, normal_ = false, homogeneous_ = false;
   std::size_t unpromised_ = 0;  // numbers per vertex that the header does not promise

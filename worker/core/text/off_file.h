@@ -12,8 +12,6 @@
 namespace affskel::core {
 
 struct ReadOffOptions {
-  /// Refuse announced counts above this before anything is allocated.
-  std::uint64_t max_elements = std::uint64_t{1} << 28;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
@@ -48,7 +46,7 @@ void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64
 /// after the last face.
 /// @throws CoreError kBadInput with line and cause for everything else (binary, nOFF, decimal
 ///   commas, NUL bytes, line ends of two kinds, trailing rows, indices out of range or not integral, NaN, infinity);
-///   kLimit when a count exceeds the options; kCancelled when the context asks to stop.
+///   kLimit for counts above 2^28, before anything is allocated; kCancelled when the context asks to stop.
 OffMesh read_off(std::string_view bytes, const ReadOffOptions& options = {});
 
 /// Text of an OFF file with the shortest decimals that read back exactly.

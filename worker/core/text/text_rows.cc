@@ -59,10 +59,10 @@ void TextRows::split(std::string_view text) {
 
 void TextRows::split_carefully(std::string_view text) {
   words_.clear();
-  if (text.find('\0') != std::string_view::npos) fail_at_line(line_, "a NUL byte in what should be text");
+  if (text.find('\0') != std::string_view::npos) fail_at(line_, "a NUL byte in what should be text");
   text = text.substr(0, text.find('#'));
   if (text.find('\r') != std::string_view::npos) {
-    fail_at_line(line_, "a carriage return inside the line: line ends of two kinds");
+    fail_at(line_, "a carriage return inside the line: line ends of two kinds");
   }
   text_ = text;
   TextWords words(text);
@@ -78,8 +78,9 @@ std::string_view TextWords::next() {
   return word;
 }
 
-void fail_at_line(std::uint64_t line, const std::string& message) {
-  throw CoreError(CoreError::Code::kBadInput, "line " + std::to_string(line) + ": " + message, line);
+void fail_at(std::uint64_t line, const std::string& message) {
+  const std::string where = line > 0 ? "line " + std::to_string(line) + ": " : std::string();
+  throw CoreError(CoreError::Code::kBadInput, where + message, line);
 }
 
 std::string quoted_excerpt(std::string_view text) {
@@ -97,7 +98,7 @@ std::uint64_t parse_count(std::string_view word, std::uint64_t line, const char*
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) {
-    fail_at_line(line, std::string(what) + " must be a whole number >= 0, not " + quoted_excerpt(word));
+    fail_at(line, std::string(what) + " must be a whole number >= 0, not " + quoted_excerpt(word));
   }
   return value;
 }
@@ -108,10 +109,10 @@ double parse_number(std::string_view word, std::uint64_t line, const char* what)
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range) {
-    fail_at_line(line, std::string(what) + " " + quoted_excerpt(word) + " is outside the range of a double");
+    fail_at(line, std::string(what) + " " + quoted_excerpt(word) + " is outside the range of a double");
   }
   if (error != std::errc{} || end != digits.data() + digits.size() || digits.front() == '+') {
-    fail_at_line(line, std::string(what) + " must be a number, not " + quoted_excerpt(word));
+    fail_at(line, std::string(what) + " must be a number, not " + quoted_excerpt(word));
   }
   return value;
 }
@@ -119,7 +120,7 @@ double parse_number(std::string_view word, std::uint64_t line, const char* what)
 double parse_finite(std::string_view word, std::uint64_t line, const char* what) {
   const double value = parse_number(word, line, what);
   if (!std::isfinite(value)) {
-    fail_at_line(line, std::string(what) + " " + quoted_excerpt(word) + " is not finite");
+    fail_at(line, std::string(what) + " " + quoted_excerpt(word) + " is not finite");
   }
   return value;
 }

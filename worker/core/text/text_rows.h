@@ -57,8 +57,8 @@ class TextWords {
   std::uint64_t line_;
 };
 
-/// @throws CoreError kBadInput naming the line, always.
-[[noreturn]] void fail_at_line(std::uint64_t line, const std::string& message);
+/// @throws CoreError kBadInput, always, naming the line if there is one (0 = none).
+[[noreturn]] void fail_at(std::uint64_t line, const std::string& message);
 
 /// An excerpt of a file in quotes, for a message: short, and printable whatever the bytes are.
 std::string quoted_excerpt(std::string_view text);

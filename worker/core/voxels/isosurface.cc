@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/mesh/box.h"
+#include "core/mesh/map_mesh.h"
 #include "core/shapes/edge_collapse.h"
 #include "core/shapes/implicit_mesh.h"
 
@@ -205,8 +206,8 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
       options.resolution > 0 ? options.resolution : std::max({1.0, longest / kCellsAlongTheSolid, enough});
   const double margin = 1 + 1.5 * found.resolution;
   ImplicitMeshOptions cubes;
-  cubes.low = inside.reach().lowest() - Vec3{margin, margin, margin};
-  cubes.high = inside.reach().highest() + Vec3{margin, margin, margin};
+  cubes.low = inside.reach().low - Vec3{margin, margin, margin};
+  cubes.high = inside.reach().high + Vec3{margin, margin, margin};
   cubes.spacing = found.resolution;
   const Vec3 box = cubes.high - cubes.low;
   if (box.x / cubes.spacing * (box.y / cubes.spacing) * (box.z / cubes.spacing) > kMaxCubes)
@@ -225,9 +226,7 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
     found.mesh = collapse_edges(found.mesh, options.max_triangles, options.context);
     for (Vec3& p : found.mesh.points) p = p - shift;
   }
-  for (Vec3& p : found.mesh.points) p = image.place(p);
-  if (determinant(image.place) < 0)
-    for (Triangle& t : found.mesh.triangles) std::swap(t[1], t[2]);
+  found.mesh = map_mesh(image.place, found.mesh);
   return found;
 }
 

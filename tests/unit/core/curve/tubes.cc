@@ -36,7 +36,7 @@ Mesh tube_mesh(std::span<const Tube> tubes, double edge) {
     return least;
   };
   const Vec3 margin{2 * edge, 2 * edge, 2 * edge};
-  Mesh mesh = mesh_zero_set(f, {box.lowest() - margin, box.highest() + margin, edge});
+  Mesh mesh = mesh_zero_set(f, {box.low - margin, box.high + margin, edge});
   fair_onto(f, 0.01 * edge, 3, mesh);
   return mesh;
 }

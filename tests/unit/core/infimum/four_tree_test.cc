@@ -46,7 +46,7 @@ TEST(FourTreeTest, SelectsWhatAPlaneMeets) {
       for (std::uint32_t i = 0; i < order.size(); ++i) {
         const Box& box = boxes[order[i]];
         const Vec3 half = 0.5 * box.sides();
-        const double middle = dot(d, 0.5 * (box.lowest() + box.highest()) - x);
+        const double middle = dot(d, 0.5 * (box.low + box.high) - x);
         const double reach = std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z;
         const bool there = std::binary_search(selected.begin(), selected.end(), i);
         if (std::abs(middle) <= reach) {
@@ -89,7 +89,7 @@ TEST(FourTreeTest, SelectsSegmentsThatAPlanePasses) {
     const std::set<std::uint32_t> there(selected.begin(), selected.end());
     EXPECT_EQ(there.size(), selected.size());
     for (std::uint32_t i = 0; i < segments.size(); ++i) {
-      const double begin = dot(d, segments[i].lowest() - x), end = dot(d, segments[i].highest() - x);
+      const double begin = dot(d, segments[i].low - x), end = dot(d, segments[i].high - x);
       const double gap = std::max({0.0, std::min(begin, end), -std::max(begin, end)});
       if (gap == 0) {
         EXPECT_TRUE(there.contains(i)) << i;

@@ -8,19 +8,20 @@ namespace {
 TEST(Box, HoldsItsPointsTightly) {
   const std::vector<Vec3> points{{1, -2, 3}, {-1, 5, 3.5}, {0, 0, 9}};
   const Box box = box_of(points);
-  EXPECT_EQ(box.lowest(), (Vec3{-1, -2, 3}));
-  EXPECT_EQ(box.highest(), (Vec3{1, 5, 9}));
+  EXPECT_EQ(box.low, (Vec3{-1, -2, 3}));
+  EXPECT_EQ(box.high, (Vec3{1, 5, 9}));
   EXPECT_EQ(box.sides(), (Vec3{2, 7, 6}));
+  EXPECT_EQ(box.middle(), (Vec3{0, 1.5, 6}));
   EXPECT_EQ(box.longest_axis(), 1U);
   EXPECT_EQ(box.longest_side(), 7);
 }
 
 TEST(Box, OfAMeshLeavesUnusedPointsOut) {
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, -3}, {50, 50, 50}}, {{0, 1, 2}, {0, 1, 3}}};
-  EXPECT_EQ(box_of(mesh).highest(), (Vec3{1, 2, 0}));
-  EXPECT_EQ(box_of(mesh).lowest(), (Vec3{0, 0, -3}));
-  EXPECT_EQ(box_of(mesh, mesh.triangles[0]).lowest(), Vec3{});
-  EXPECT_EQ(boxes_of(mesh)[1].lowest(), (Vec3{0, 0, -3}));
+  EXPECT_EQ(box_of(mesh).high, (Vec3{1, 2, 0}));
+  EXPECT_EQ(box_of(mesh).low, (Vec3{0, 0, -3}));
+  EXPECT_EQ(box_of(mesh, mesh.triangles[0]).low, Vec3{});
+  EXPECT_EQ(boxes_of(mesh)[1].low, (Vec3{0, 0, -3}));
 }
 
 TEST(Box, ByItselfHoldsNothing) {

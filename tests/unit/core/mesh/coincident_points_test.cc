@@ -12,8 +12,8 @@ TEST(SamePlaceTest, NamesTheFirstOfEqualPoints) {
 }
 
 TEST(SamePlaceTest, ZeroHasNoSign) {
-  EXPECT_EQ(first_coincident_point({{0.0, -0.0, 5}, {-0.0, -0.0, 5}, {-0.0, 0.0, 5}}),
-            (std::vector<std::uint32_t>{0, 0, 0}));
+  const std::vector<Vec3> points{{0.0, -0.0, 5}, {-0.0, -0.0, 5}, {-0.0, 0.0, 5}};
+  EXPECT_EQ(first_coincident_point(points), (std::vector<std::uint32_t>{0, 0, 0}));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST(RidgeSheet, OfABodyReachesAllItsEnds) {
   EXPECT_FALSE(sheet.triangles.empty());
   EXPECT_GT(sheet.limbs, 0U);
   std::vector<Vec3> places;
-  double lowest = box_of(mesh).highest().z;
+  double lowest = box_of(mesh).high.z;
   for (const SheetVertex& v : sheet.vertices) {
     places.push_back(body.place(v.position));
     lowest = std::min(lowest, places.back().z);
@@ -47,7 +47,7 @@ TEST(RidgeSheet, OfABodyReachesAllItsEnds) {
   }
   const PointIndex index(places);
   const DistanceToMesh wall(mesh);
-  EXPECT_LT(lowest - box_of(mesh).lowest().z, 0.03 * box_of(mesh).longest_side());
+  EXPECT_LT(lowest - box_of(mesh).low.z, 0.03 * box_of(mesh).longest_side());
   for (const Vec3& to : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}}) {
     const Vec3 end = *std::max_element(mesh.points.begin(), mesh.points.end(),
                                        [&](const Vec3& a, const Vec3& b) { return dot(a, to) < dot(b, to); });

@@ -86,8 +86,8 @@ TEST(BoxTreeTest, AnswersNothingFromAnEmptyTree) {
 TEST(BoxTreeTest, BoxOfATriangleIsTight) {
   const Mesh mesh{{{1, 5, -1}, {0, 6, 2}, {3, 4, 0}}, {{0, 1, 2}}};
   const Box box = box_of(mesh, mesh.triangles[0]);
-  EXPECT_EQ(box.low, (std::array<double, 3>{0, 4, -1}));
-  EXPECT_EQ(box.high, (std::array<double, 3>{3, 6, 2}));
+  EXPECT_EQ(box.low, (Vec3{0, 4, -1}));
+  EXPECT_EQ(box.high, (Vec3{3, 6, 2}));
 }
 
 }  // namespace

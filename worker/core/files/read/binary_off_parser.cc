@@ -1,7 +1,9 @@
 #include <bit>
 #include <string>
 
+#include "base/packed_numbers.h"
 #include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
@@ -39,9 +41,7 @@ class BinaryOff {
  private:
   std::uint32_t word(const std::string& place) {
     if (rest_.size() < 4) fail_at(0, "the file ends at " + place);
-    std::uint32_t bits = 0;
-    for (int i = 0; i < 4; ++i)
-      bits = bits << 8 | static_cast<unsigned char>(rest_[static_cast<std::size_t>(i)]);
+    const auto bits = base::decode_ordered<std::uint32_t>(rest_.data(), true);
     rest_.remove_prefix(4);
     return bits;
   }

@@ -11,6 +11,7 @@
 #include "core/base/affine_map.h"
 #include "core/files/base64.h"
 #include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 // glTF 2.0 (Khronos, ISO/IEC 12113): a JSON text with numbers in buffers.  A scene's nodes place meshes by affine
 // maps; a mesh has primitives, each with an accessor for its positions and mostly one for its indices.  What is said
@@ -129,23 +130,19 @@ class Gltf {
   }
 
   static AffineMap map_of(const json& node) {
-    AffineMap map;
     if (node.contains("matrix")) {
       const auto m =
           numbers<16>(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});  // columns
-      map.rows = {Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}, Vec3{m[2], m[6], m[10]}};
-      map.shift = {m[12], m[13], m[14]};
-      return map;
+      return {{Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}, Vec3{m[2], m[6], m[10]}},
+              {m[12], m[13], m[14]}};
     }
     const auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
     const auto scale = numbers<3>(node, "scale", {1, 1, 1});
     const auto shift = numbers<3>(node, "translation", {0, 0, 0});
-    AffineMap turned;
-    turned.rows = {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                   Vec3{2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                   Vec3{2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    return then(then(scaling(scale[0], scale[1], scale[2]), turned),
-                translation({shift[0], shift[1], shift[2]}));
+    const AffineMap turned{{Vec3{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            Vec3{2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            Vec3{2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
+    return then(then(scaling(scale[0], scale[1], scale[2]), turned), translation(vector_of(shift)));
   }
 
   // Nodes form trees: each has one parent, so that none is drawn twice.

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"
@@ -66,8 +65,7 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
       lower_case(header.word("elementbyteordermsb", header.word("binarydatabyteordermsb").c_str())) == "true";
   const std::size_t count = voxels_of(image.size);
   if (lower_case(header.word("compresseddata")) == "true") other = unpack(other ? *other : data);
-  image.numbers = other ? numbers_of(count, std::move(*other), kind->second, big)
-                        : numbers_of(count, data, kind->second, big);
+  image.numbers = numbers_of(count, data, std::move(other), kind->second, big);
   return image;
 }
 

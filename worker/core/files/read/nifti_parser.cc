@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/coding.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/voxel_numbers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
@@ -37,7 +37,7 @@ class Nifti {
     if (!(begin >= kNiftiHeader && begin <= static_cast<float>(bytes_.size())))
       fail_at(0, "its numbers begin behind the file's end");
     image.numbers =
-        numbers_of(voxels_of(image.size), bytes_.substr(static_cast<std::size_t>(begin)), kind(), big_);
+        numbers_of(voxels_of(image.size), bytes_.substr(static_cast<std::size_t>(begin)), {}, kind(), big_);
     return image;
   }
 

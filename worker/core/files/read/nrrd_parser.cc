@@ -1,13 +1,12 @@
 // NRRD, see teem.sourceforge.net/nrrd/format.html.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/coding.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"
@@ -17,43 +16,21 @@ namespace affskel::core {
 namespace {
 
 base::NumberKind nrrd_kind(const VoxelHeader& header) {
-  static const std::map<std::string, base::NumberKind> kNames = {
-      {"signed char", base::kNumberKind<std::int8_t>},
-      {"int8", base::kNumberKind<std::int8_t>},
-      {"int8_t", base::kNumberKind<std::int8_t>},
-      {"uchar", base::kNumberKind<std::uint8_t>},
-      {"unsigned char", base::kNumberKind<std::uint8_t>},
-      {"uint8", base::kNumberKind<std::uint8_t>},
-      {"uint8_t", base::kNumberKind<std::uint8_t>},
-      {"short", base::kNumberKind<std::int16_t>},
-      {"short int", base::kNumberKind<std::int16_t>},
-      {"int16", base::kNumberKind<std::int16_t>},
-      {"int16_t", base::kNumberKind<std::int16_t>},
-      {"signed short", base::kNumberKind<std::int16_t>},
-      {"ushort", base::kNumberKind<std::uint16_t>},
-      {"unsigned short", base::kNumberKind<std::uint16_t>},
-      {"uint16", base::kNumberKind<std::uint16_t>},
-      {"uint16_t", base::kNumberKind<std::uint16_t>},
-      {"int", base::kNumberKind<std::int32_t>},
-      {"signed int", base::kNumberKind<std::int32_t>},
-      {"int32", base::kNumberKind<std::int32_t>},
-      {"int32_t", base::kNumberKind<std::int32_t>},
-      {"uint", base::kNumberKind<std::uint32_t>},
-      {"unsigned int", base::kNumberKind<std::uint32_t>},
-      {"uint32", base::kNumberKind<std::uint32_t>},
-      {"uint32_t", base::kNumberKind<std::uint32_t>},
-      {"int64", base::kNumberKind<std::int64_t>},
-      {"int64_t", base::kNumberKind<std::int64_t>},
-      {"longlong", base::kNumberKind<std::int64_t>},
-      {"uint64", base::kNumberKind<std::uint64_t>},
-      {"uint64_t", base::kNumberKind<std::uint64_t>},
-      {"ulonglong", base::kNumberKind<std::uint64_t>},
-      {"float", base::kNumberKind<float>},
-      {"double", base::kNumberKind<double>}};
-  const auto found = kNames.find(lower_case(header.word("type")));
-  if (found == kNames.end())
-    fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
-  return found->second;
+  static const std::vector<std::pair<base::NumberKind, std::vector<std::string_view>>> kNames = {
+      {base::kNumberKind<std::int8_t>, {"signed char", "int8", "int8_t"}},
+      {base::kNumberKind<std::uint8_t>, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {base::kNumberKind<std::int16_t>, {"short", "short int", "signed short", "int16", "int16_t"}},
+      {base::kNumberKind<std::uint16_t>, {"ushort", "unsigned short", "uint16", "uint16_t"}},
+      {base::kNumberKind<std::int32_t>, {"int", "signed int", "int32", "int32_t"}},
+      {base::kNumberKind<std::uint32_t>, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      {base::kNumberKind<std::int64_t>, {"longlong", "int64", "int64_t"}},
+      {base::kNumberKind<std::uint64_t>, {"ulonglong", "uint64", "uint64_t"}},
+      {base::kNumberKind<float>, {"float"}},
+      {base::kNumberKind<double>, {"double"}}};
+  const std::string type = lower_case(header.word("type"));
+  for (const auto& [kind, names] : kNames)
+    if (std::find(names.begin(), names.end(), type) != names.end()) return kind;
+  fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
 }
 
 AffineMap nrrd_place(const VoxelHeader& header) {
@@ -96,11 +73,10 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   const std::string encoding = lower_case(header.word("encoding", "raw"));
   if (header.has("line skip") || header.has("lineskip") || header.has("byte skip") || header.has("byteskip"))
     fail_at(0, "skips lines or bytes before its numbers, which is not read");
-  if (encoding == "raw") {
-    image.numbers =
-        other ? numbers_of(count, std::move(*other), kind, big) : numbers_of(count, data, kind, big);
-  } else if (encoding == "gz" || encoding == "gzip") {
-    image.numbers = numbers_of(count, unpack(other ? *other : data), kind, big);
+  const bool packed = encoding == "gz" || encoding == "gzip";
+  if (packed) other = unpack(other ? *other : data);
+  if (packed || encoding == "raw") {
+    image.numbers = numbers_of(count, data, std::move(other), kind, big);
   } else if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
     if (other) fail_at(0, "has its numbers in another file as text, which is not read");
     if (count > data.size())

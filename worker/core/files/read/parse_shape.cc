@@ -12,6 +12,7 @@
 #include "core/files/read/voxel_parsers.h"
 #include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
+#include "core/text/text_rows.h"
 #include "core/voxels/isosurface.h"
 
 namespace affskel::core {
@@ -47,6 +48,23 @@ Parser parser_for(std::string_view extension) {
                   "surfaces from .off .ply .obj .stl .vtp .glb .gltf .3mf");
 }
 
+// Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal, normals, Normal or
+// Normals, with _a or _b behind it or not (Normals_x, normal_a_x); the same of y and z.
+bool is_normal_column(std::string_view name) {
+  const auto take = [&name](std::string_view start) {
+    const bool found = name.starts_with(start);
+    if (found) name.remove_prefix(start.size());
+    return found;
+  };
+  const auto is_axis = [](char c) { return c == 'x' || c == 'y' || c == 'z'; };
+  if (take("normal") || take("Normal")) {
+    take("s");
+    if (!take("_a")) take("_b");
+    return name.size() == 2 && name[0] == '_' && is_axis(name[1]);
+  }
+  return name.size() >= 2 && name[0] == 'n' && is_axis(name[1]) && (name.size() == 2 || name[2] == '_');
+}
+
 void check_finite(const ShapeFile& file) {
   for (const PointColumn& column : file.columns) {
     if (!is_normal_column(column.name)) continue;
@@ -59,10 +77,18 @@ void check_finite(const ShapeFile& file) {
   }
 }
 
+std::uint32_t known_vertex(const Mesh& mesh, std::int64_t vertex, const std::string& place,
+                           std::uint64_t line) {
+  const auto known = static_cast<std::int64_t>(mesh.points.size());
+  if (vertex < 0 || vertex >= known)
+    fail_at(line,
+            place + " uses a vertex that does not exist (" + std::to_string(known) + " vertices are known)");
+  return static_cast<std::uint32_t>(vertex);
+}
+
 bool holds_mesh(std::string_view extension) {
-  constexpr std::array<std::string_view, 10> kMeshes = {".off", ".ply",  ".obj", ".stl", ".vtp",
-                                                        ".glb", ".gltf", ".3mf", ".xyz", ".csv"};
-  return std::find(kMeshes.begin(), kMeshes.end(), extension) != kMeshes.end();
+  const auto is_it = [&](const auto& known) { return known.first == extension; };
+  return extension != ".dat" && std::any_of(kParsers.begin(), kParsers.end(), is_it);
 }
 
 // The extension that the content stands for; empty where it says nothing, as of rows of numbers.
@@ -132,21 +158,6 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, con
   return {kind == ".off" ? "binary off" : std::string(kind.substr(1)), false, std::move(shape.off), {}};
 }
 
-bool is_normal_column(std::string_view name) {
-  const auto take = [&name](std::string_view start) {
-    const bool found = name.starts_with(start);
-    if (found) name.remove_prefix(start.size());
-    return found;
-  };
-  const auto is_axis = [](char c) { return c == 'x' || c == 'y' || c == 'z'; };
-  if (take("normal") || take("Normal")) {
-    take("s");
-    if (!take("_a")) take("_b");
-    return name.size() == 2 && name[0] == '_' && is_axis(name[1]);
-  }
-  return name.size() >= 2 && name[0] == 'n' && is_axis(name[1]) && (name.size() == 2 || name[2] == '_');
-}
-
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line) {
   Mesh& mesh = file.off.mesh;
@@ -154,13 +165,7 @@ void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, cons
     fail_at(line, place + " has " + base::counted(corners.size(), "corner") + ", needs 3");
   }
   std::vector<std::uint32_t> indices;
-  for (const std::int64_t corner : corners) {
-    if (corner < 0 || static_cast<std::uint64_t>(corner) >= mesh.points.size()) {
-      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(mesh.points.size()) +
-                        " vertices are known)");
-    }
-    indices.push_back(static_cast<std::uint32_t>(corner));
-  }
+  for (const std::int64_t corner : corners) indices.push_back(known_vertex(mesh, corner, place, line));
   std::vector<std::uint32_t> sorted = indices;
   std::sort(sorted.begin(), sorted.end());
   if (indices.size() > 3 && std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
@@ -175,21 +180,12 @@ void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, co
                   std::uint64_t line) {
   if (vertices.size() < 2)
     fail_at(line, place + " has " + base::counted(vertices.size(), "vertex", "vertices") + ", needs 2");
-  const auto known = static_cast<std::int64_t>(file.mesh().points.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (vertices[i] < 0 || vertices[i] >= known) {
-      fail_at(line, place + " uses a vertex that does not exist (" + std::to_string(known) +
-                        " vertices are known)");
-    }
-    if (i == 0 || vertices[i] == vertices[i - 1]) continue;
-    file.segments.push_back(
-        {static_cast<std::uint32_t>(vertices[i - 1]), static_cast<std::uint32_t>(vertices[i])});
+  std::uint32_t before = known_vertex(file.mesh(), vertices[0], place, line);
+  for (const std::int64_t vertex : vertices) {
+    const std::uint32_t at = known_vertex(file.mesh(), vertex, place, line);
+    if (at != before) file.segments.push_back({before, at});
+    before = at;
   }
-}
-
-void fail_at(std::uint64_t line, const std::string& message) {
-  const std::string where = line > 0 ? "line " + std::to_string(line) + ": " : std::string();
-  throw CoreError(CoreError::Code::kBadInput, where + message, line);
 }
 
 }  // namespace affskel::core

@@ -3,24 +3,27 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 
-#include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
 
-PlyType parse_type(std::string_view word, std::uint64_t line) {
-  constexpr std::array<std::array<std::string_view, 2>, 8> kNames = {{{"char", "int8"},
-                                                                      {"uchar", "uint8"},
-                                                                      {"short", "int16"},
-                                                                      {"ushort", "uint16"},
-                                                                      {"int", "int32"},
-                                                                      {"uint", "uint32"},
-                                                                      {"float", "float32"},
-                                                                      {"double", "float64"}}};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<PlyType>(i);
+template <class Number>
+constexpr PlyType type_of(std::string_view name, std::string_view other_name) {
+  using Limits = std::numeric_limits<Number>;
+  return {{name, other_name}, base::kNumberKind<Number>, Limits::is_integer, Limits::lowest(), Limits::max()};
+}
+constexpr std::array<PlyType, 8> kTypes = {
+    type_of<std::int8_t>("char", "int8"),    type_of<std::uint8_t>("uchar", "uint8"),
+    type_of<std::int16_t>("short", "int16"), type_of<std::uint16_t>("ushort", "uint16"),
+    type_of<std::int32_t>("int", "int32"),   type_of<std::uint32_t>("uint", "uint32"),
+    type_of<float>("float", "float32"),      type_of<double>("double", "float64")};
+
+const PlyType* parse_type(std::string_view word, std::uint64_t line) {
+  for (const PlyType& type : kTypes) {
+    if (word == type.names[0] || word == type.names[1]) return &type;
   }
   fail_at(line, "unknown type " + quoted_excerpt(word));
 }
@@ -111,7 +114,7 @@ class HeaderReader {
       property.list = true;
       property.count_type = parse_type(words_[2], header_.lines);
       property.type = parse_type(words_[3], header_.lines);
-      if (!is_whole(property.count_type)) fail("the length of a list must be of a whole type");
+      if (!property.count_type->whole) fail("the length of a list must be of a whole type");
     } else if (words_.size() == 3) {
       property.type = parse_type(words_[1], header_.lines);
     } else {

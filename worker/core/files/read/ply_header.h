@@ -1,24 +1,28 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/packed_numbers.h"
+
 namespace affskel::core {
 
-/// Types of PLY's numbers, in the order of the names in its description.
-enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
-
-inline bool is_whole(PlyType type) {
-  return type != PlyType::kFloat && type != PlyType::kDouble;
-}
+/// A type of PLY's numbers.
+struct PlyType {
+  std::array<std::string_view, 2> names;  ///< either
+  base::NumberKind kind;
+  bool whole;
+  double least, most;
+};
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kDouble;
+  const PlyType* type = nullptr;
   bool list = false;
-  PlyType count_type = PlyType::kUint8;  ///< of a list
+  const PlyType* count_type = nullptr;  ///< of a list
 };
 
 struct PlyElement {

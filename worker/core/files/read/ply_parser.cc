@@ -1,13 +1,10 @@
 // PLY (Turk 1994): a text header that declares elements with typed properties, then their values in the
 // same order, as text (one row per entry) or as bytes of either order.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/number_text.h"
-#include "base/packed_numbers.h"
 #include "core/base/error.h"
 #include "core/files/ply_display.h"
 #include "core/files/read/ply_header.h"
@@ -16,16 +13,6 @@
 
 namespace affskel::core {
 namespace {
-
-// By PlyType.
-constexpr std::array<base::NumberKind, 8> kKinds = {
-    base::kNumberKind<std::int8_t>,   base::kNumberKind<std::uint8_t>, base::kNumberKind<std::int16_t>,
-    base::kNumberKind<std::uint16_t>, base::kNumberKind<std::int32_t>, base::kNumberKind<std::uint32_t>,
-    base::kNumberKind<float>,         base::kNumberKind<double>};
-
-// Of the whole types, in their order.
-constexpr std::array<std::pair<double, double>, 6> kRange = {
-    {{-128, 127}, {0, 255}, {-32768, 32767}, {0, 65535}, {-0x1p31, 0x1p31 - 1}, {0, 0x1p32 - 1}}};
 
 // The values of the body, one after the other.
 class Values {
@@ -41,12 +28,11 @@ class Values {
     if (encoding_ == PlyEncoding::kText && !rows_.next()) fail("the file ends before");
   }
 
-  double next(PlyType type) {
+  double next(const PlyType& type) {
     if (encoding_ == PlyEncoding::kText) return next_word(type);
-    const base::NumberKind& kind = kKinds[static_cast<std::size_t>(type)];
-    if (bytes_.size() < kind.bytes) fail("the file ends inside");
-    const double value = kind.decode(bytes_.data(), encoding_ == PlyEncoding::kBig);
-    bytes_.remove_prefix(kind.bytes);
+    if (bytes_.size() < type.kind.bytes) fail("the file ends inside");
+    const double value = type.kind.decode(bytes_.data(), encoding_ == PlyEncoding::kBig);
+    bytes_.remove_prefix(type.kind.bytes);
     return value;
   }
 
@@ -70,7 +56,7 @@ class Values {
  private:
   [[noreturn]] void fail(const std::string& what) const { fail_at(line(), what + " " + place()); }
 
-  double next_word(PlyType type) {
+  double next_word(const PlyType& type) {
     if (word_ == rows_.words().size()) fail("too few numbers in the row of");
     const std::string_view word = rows_.words()[word_++];
     double value = 0;
@@ -79,14 +65,13 @@ class Values {
     } catch (const CoreError&) {
       fail_at(line(), quoted_excerpt(word) + " is not a number, in " + place());
     }
-    if (!is_whole(type)) return value;
+    if (!type.whole) return value;
     if (value != std::floor(value)) {
       fail_at(line(), quoted_excerpt(word) + " is not a whole number, in " + place());
     }
-    const auto [least, most] = kRange[static_cast<std::size_t>(type)];
-    if (!(value >= least && value <= most)) {
-      fail_at(line(), quoted_excerpt(word) + " is outside the range of its type (" + base::to_text(least) +
-                          " to " + base::to_text(most) + "), in " + place());
+    if (!(value >= type.least && value <= type.most)) {
+      fail_at(line(), quoted_excerpt(word) + " is outside the range of its type (" +
+                          base::to_text(type.least) + " to " + base::to_text(type.most) + "), in " + place());
     }
     return value;
   }
@@ -147,14 +132,12 @@ class PlyReader {
   }
 
   const std::vector<double>& next_list(const PlyProperty& property) {
-    const double length = values_.next(property.count_type);
+    const double length = values_.next(*property.count_type);
     if (!(length >= 0) || length > static_cast<double>(values_.bytes_left())) {
       fail_at(values_.line(), values_.place() + " announces a list of " + base::to_text(length) + " values");
     }
     list_.clear();
-    for (double i = 0; i < length; ++i) {
-      list_.push_back(values_.next(property.type));
-    }
+    for (double i = 0; i < length; ++i) list_.push_back(values_.next(*property.type));
     return list_;
   }
 
@@ -164,16 +147,18 @@ class PlyReader {
     return corners_;
   }
 
+  void pass_over(const PlyProperty& property) {
+    if (property.list) {
+      next_list(property);
+    } else {
+      values_.next(*property.type);
+    }
+  }
+
   void pass_over(const PlyElement& element) {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       values_.begin(element.name, i);
-      for (const PlyProperty& property : element.properties) {
-        if (property.list) {
-          next_list(property);
-        } else {
-          values_.next(property.type);
-        }
-      }
+      for (const PlyProperty& property : element.properties) pass_over(property);
       values_.end();
     }
   }
@@ -187,7 +172,7 @@ class PlyReader {
         target.push_back(static_cast<std::size_t>(p.name[0] - 'x'));
       } else {
         target.push_back(3 + file_.columns.size());
-        file_.columns.push_back({p.name, is_whole(p.type), {}});
+        file_.columns.push_back({p.name, p.type->whole, {}});
       }
     }
     for (std::size_t c = 0; c < 3; ++c) {
@@ -200,9 +185,9 @@ class PlyReader {
 
   void read_vertex(const PlyElement& element, const std::vector<std::size_t>& target, std::uint64_t index) {
     values_.begin(element.name, index);
-    std::array<double, 3> at{};
+    Vec3 at;
     for (std::size_t p = 0; p < target.size(); ++p) {
-      const double value = values_.next(element.properties[p].type);
+      const double value = values_.next(*element.properties[p].type);
       if (target[p] >= 3) {
         file_.columns[target[p] - 3].values.push_back(value);
         continue;
@@ -213,7 +198,7 @@ class PlyReader {
       at[target[p]] = value;
     }
     values_.end();
-    file_.off.mesh.points.push_back({at[0], at[1], at[2]});
+    file_.off.mesh.points.push_back(at);
     if (values_.line() > 0) file_.off.vertex_line.push_back(static_cast<std::uint32_t>(values_.line()));
   }
 
@@ -229,10 +214,8 @@ class PlyReader {
       for (const PlyProperty& p : element.properties) {
         if (is_corners(p)) {
           add_face_or_curve(next_corners(p), header_.curve_faces >= element.count - i);
-        } else if (p.list) {
-          next_list(p);
         } else {
-          values_.next(p.type);
+          pass_over(p);
         }
       }
       values_.end();
@@ -245,12 +228,11 @@ class PlyReader {
       values_.begin(element.name, i);
       corners_.clear();
       for (const PlyProperty& p : element.properties) {
-        if (p.list) {
-          next_list(p);
-          continue;
+        if (!p.list && (p.name == "vertex1" || p.name == "vertex2")) {
+          corners_.push_back(whole_index(values_.next(*p.type)));
+        } else {
+          pass_over(p);
         }
-        const double value = values_.next(p.type);
-        if (p.name == "vertex1" || p.name == "vertex2") corners_.push_back(whole_index(value));
       }
       values_.end();
       add_polyline(file_, corners_, values_.place(), values_.line());

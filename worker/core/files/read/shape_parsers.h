@@ -29,10 +29,6 @@ bool is_binary_off(std::string_view bytes);
 /// Whether the size is what the count of triangles in a binary STL file makes it.
 bool is_binary_stl(std::string_view bytes);
 
-/// Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal,
-/// normals, Normal or Normals, with _a or _b behind it or not (Normals_x, normal_a_x); the same of y and z.
-bool is_normal_column(std::string_view name);
-
 /// Cuts a polygon into triangles of `file`.
 /// @param place names it in messages, @param line of it, 0 = none.
 /// @throws CoreError kBadInput when it has less than three corners, one out of range, or, of more than three,
@@ -64,8 +60,5 @@ class CornerSurface {
 /// @throws CoreError kBadInput when it has less than two vertices or one out of range.
 void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,
                   std::uint64_t line);
-
-/// @throws CoreError kBadInput with the line if there is one.
-[[noreturn]] void fail_at(std::uint64_t line, const std::string& message);
 
 }  // namespace affskel::core

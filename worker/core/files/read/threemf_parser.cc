@@ -36,26 +36,23 @@ struct Object {
 };
 
 double number(const XmlElement& element, const char* name) {
-  return parse_finite(element.attribute(name), element.line(), name);
+  return parse_finite(element.attribute(name), element.line, name);
 }
 
 // "m00 m01 m02 m10 ... m32" of row vectors: x' = m00 x + m10 y + m20 z + m30.
 AffineMap map_of(const XmlElement& element) {
-  AffineMap map;
   const std::string text = element.attribute("transform");
-  if (text.empty()) return map;
+  if (text.empty()) return {};
   TextRows row(text);
-  if (!row.next() || row.words().size() != 12) fail_at(element.line(), "a transform needs 12 numbers");
-  const auto m = [&](std::size_t i) { return parse_finite(row.words()[i], element.line(), "transform"); };
-  map.rows = {Vec3{m(0), m(3), m(6)}, Vec3{m(1), m(4), m(7)}, Vec3{m(2), m(5), m(8)}};
-  map.shift = {m(9), m(10), m(11)};
-  return map;
+  if (!row.next() || row.words().size() != 12) fail_at(element.line, "a transform needs 12 numbers");
+  const auto m = [&](std::size_t i) { return parse_finite(row.words()[i], element.line, "transform"); };
+  return {{Vec3{m(0), m(3), m(6)}, Vec3{m(1), m(4), m(7)}, Vec3{m(2), m(5), m(8)}}, {m(9), m(10), m(11)}};
 }
 
 class Model final : public XmlHandler {
  public:
   Next open(const XmlElement& element) override {
-    std::string_view name = element.name();
+    std::string_view name = element.name;
     name.remove_prefix(std::min(name.find(':') + 1, name.size()));
     if (name == "object") {
       object_ = &objects_[element.attribute("id")];
@@ -66,9 +63,9 @@ class Model final : public XmlHandler {
           {corner(element, "v1"), corner(element, "v2"), corner(element, "v3")});
     } else if (name == "component" || name == "item") {
       if (!element.attribute("p:path").empty())
-        fail_at(element.line(),
+        fail_at(element.line,
                 std::string("has objects in other files of the archive, which are not read") + kInstead);
-      Component component{element.attribute("objectid"), map_of(element), element.line()};
+      Component component{element.attribute("objectid"), map_of(element), element.line};
       (name == "item" ? built_ : held(element).components).push_back(std::move(component));
     }
     return Next::kReadOn;
@@ -85,15 +82,15 @@ class Model final : public XmlHandler {
 
  private:
   Object& held(const XmlElement& element) {
-    if (object_ == nullptr) fail_at(element.line(), std::string(element.name()) + " outside of an object");
+    if (object_ == nullptr) fail_at(element.line, std::string(element.name) + " outside of an object");
     return *object_;
   }
   Mesh& mesh(const XmlElement& element) { return held(element).mesh; }
   std::uint32_t corner(const XmlElement& element, const char* name) {
-    const std::uint64_t vertex = parse_count(element.attribute(name), element.line(), name);
+    const std::uint64_t vertex = parse_count(element.attribute(name), element.line, name);
     const std::size_t known = mesh(element).points.size();
     if (vertex >= known)
-      fail_at(element.line(),
+      fail_at(element.line,
               "a triangle uses vertex " + std::to_string(vertex) + " of " + std::to_string(known));
     return static_cast<std::uint32_t>(vertex);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
@@ -25,11 +25,14 @@ std::size_t voxels_of(const std::array<std::size_t, 3>& size) {
   return count;
 }
 
-void require_bytes(std::size_t voxels, std::size_t given, std::size_t bytes_per_voxel) {
-  if (given / bytes_per_voxel < voxels) {
+base::PackedNumbers numbers_of(std::size_t voxels, std::string_view seen, std::optional<std::string> own,
+                               const base::NumberKind& kind, bool big_endian) {
+  const std::size_t given = own ? own->size() : seen.size();
+  if (given / kind.bytes < voxels)
     fail_at(
         0, std::to_string(voxels) + " voxels announced, but only " + std::to_string(given) + " bytes follow");
-  }
+  if (own) return {std::move(*own), kind, big_endian};
+  return {seen, kind, big_endian};
 }
 
 std::array<std::size_t, 3> sizes_of(const std::vector<double>& numbers, std::uint64_t line) {
@@ -57,11 +60,9 @@ std::string read_numbers_beside(const std::string& name, std::uint64_t line, con
 }
 
 AffineMap place_of(const std::vector<Vec3>& steps, const Vec3& origin) {
-  AffineMap map;
-  map.rows = {Vec3{steps[0].x, steps[1].x, steps[2].x}, Vec3{steps[0].y, steps[1].y, steps[2].y},
-              Vec3{steps[0].z, steps[1].z, steps[2].z}};
-  map.shift = origin;
-  return map;
+  return {{Vec3{steps[0].x, steps[1].x, steps[2].x}, Vec3{steps[0].y, steps[1].y, steps[2].y},
+           Vec3{steps[0].z, steps[1].z, steps[2].z}},
+          origin};
 }
 
 }  // namespace affskel::core

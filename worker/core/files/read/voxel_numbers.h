@@ -3,8 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "base/packed_numbers.h"
@@ -22,18 +23,11 @@ inline constexpr const char* kInOneFile = "; write header and numbers into one f
 /// @throws CoreError kBadInput for an axis without any, kLimit for more than 2^30.
 std::size_t voxels_of(const std::array<std::size_t, 3>& size);
 
-/// @throws CoreError kBadInput when `given` bytes are too few for the voxels.
-void require_bytes(std::size_t voxels, std::size_t given, std::size_t bytes_per_voxel);
-
-/// The numbers of an image of `voxels`.
-/// @param bytes of them, more may follow; a view must outlive them.
+/// The numbers of an image of `voxels`, in bytes of their own, or else in those that are seen, which must outlive them;
+/// more may follow.
 /// @throws CoreError kBadInput when there are too few.
-template <class Bytes>
-base::PackedNumbers numbers_of(std::size_t voxels, Bytes&& bytes, const base::NumberKind& kind,
-                               bool big_endian) {
-  require_bytes(voxels, bytes.size(), kind.bytes);
-  return base::PackedNumbers(std::forward<Bytes>(bytes), kind, big_endian);
-}
+base::PackedNumbers numbers_of(std::size_t voxels, std::string_view seen, std::optional<std::string> own,
+                               const base::NumberKind& kind, bool big_endian);
 
 /// Three sizes; more axes only where they have one item.
 /// @throws CoreError kBadInput with the line, 0 = none.

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/voxel_numbers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {

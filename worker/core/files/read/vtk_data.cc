@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -14,7 +13,6 @@
 
 #include "base/coding.h"
 #include "core/files/base64.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {

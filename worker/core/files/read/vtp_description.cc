@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/number_text.h"
-#include "core/files/read/shape_parsers.h"
 #include "core/files/read/xml_reader.h"
 #include "core/text/text_rows.h"
 
@@ -31,20 +30,20 @@ class DescriptionReader : public XmlHandler {
 
   Next open(const XmlElement& element) override {
     const bool first = last_line_ == 0;
-    last_line_ = element.line();
+    last_line_ = element.line;
     if (first) {
       read_head(element);
     } else if (array_) {
       ++array_depth_;
-    } else if (element.name() == "AppendedData") {
+    } else if (element.name == "AppendedData") {
       read_appended(element);
       return Next::kStop;
-    } else if (element.name() == "Piece") {
+    } else if (element.name == "Piece") {
       begin_piece(element);
-    } else if (element.name() == "DataArray" || element.name() == "Array") {
+    } else if (element.name == "DataArray" || element.name == "Array") {
       begin_array(element);
     } else {
-      section_ = element.name();
+      section_ = element.name;
     }
     return Next::kReadOn;
   }
@@ -74,11 +73,11 @@ class DescriptionReader : public XmlHandler {
 
  private:
   void read_head(const XmlElement& element) {
-    if (element.name() != "VTKFile")
-      fail_at(element.line(), "is XML of the kind " + quoted_excerpt(element.name()) +
-                                  ", not VTK's; export it as .off, .ply, .obj, .stl or .glb");
+    if (element.name != "VTKFile")
+      fail_at(element.line, "is XML of the kind " + quoted_excerpt(element.name) +
+                                ", not VTK's; export it as .off, .ply, .obj, .stl or .glb");
     if (element.attribute("type") != "PolyData") {
-      fail_at(element.line(),
+      fail_at(element.line,
               "a VTK file of type " + quoted_excerpt(element.attribute("type")) + "; only PolyData is read");
     }
     description_.encoding.big_endian = element.attribute("byte_order") == "BigEndian";
@@ -88,19 +87,19 @@ class DescriptionReader : public XmlHandler {
 
   void read_appended(const XmlElement& element) {
     description_.encoding.base64 = element.attribute("encoding") == "base64";
-    const std::size_t mark = bytes_.find('_', element.end());
-    if (mark == std::string_view::npos) fail_at(element.line(), "the appended data do not begin with '_'");
+    const std::size_t mark = bytes_.find('_', element.end);
+    if (mark == std::string_view::npos) fail_at(element.line, "the appended data do not begin with '_'");
     std::string_view& appended = description_.encoding.appended;
     appended = bytes_.substr(mark + 1);
     if (description_.encoding.base64) appended = appended.substr(0, appended.find('<'));
   }
 
   void begin_piece(const XmlElement& element) {
-    VtpPiece piece{{}, {}, element.line()};
+    VtpPiece piece{{}, {}, element.line};
     for (const char* what : {"Points", "Verts", "Lines", "Strips", "Polys"}) {
       const std::string name = std::string("NumberOf") + what;
       const std::string count = element.attribute(name);
-      if (!count.empty()) piece.announced[what] = parse_count(count, element.line(), name.c_str());
+      if (!count.empty()) piece.announced[what] = parse_count(count, element.line, name.c_str());
     }
     description_.pieces.push_back(std::move(piece));
   }
@@ -112,10 +111,10 @@ class DescriptionReader : public XmlHandler {
                       element.attribute("offset"),
                       1,
                       {},
-                      element.line()};
+                      element.line};
     const std::string components = element.attribute("NumberOfComponents");
     if (!components.empty()) {
-      array_->components = parse_count(components, element.line(), "NumberOfComponents");
+      array_->components = parse_count(components, element.line, "NumberOfComponents");
     }
     array_depth_ = 0;
     text_ = {};

@@ -8,7 +8,7 @@
 #include <new>
 #include <set>
 
-#include "core/files/read/shape_parsers.h"
+#include "core/text/text_rows.h"
 
 namespace affskel::core {
 namespace {
@@ -48,27 +48,6 @@ class Reader {
   }
 
  private:
-  class Element : public XmlElement {
-   public:
-    Element(const Reader& reader, const char* name, const char** attributes)
-        : reader_(reader), name_(name), attributes_(attributes) {}
-
-    std::string_view name() const override { return name_; }
-    std::string attribute(std::string_view name) const override {
-      for (const char** a = attributes_; *a != nullptr; a += 2) {
-        if (name == a[0]) return a[1];
-      }
-      return "";
-    }
-    std::uint64_t line() const override { return reader_.line(); }
-    std::size_t end() const override { return reader_.byte_index() + reader_.byte_count(); }
-
-   private:
-    const Reader& reader_;
-    std::string_view name_;
-    const char** attributes_;  // name, value, name, value, ..., null
-  };
-
   std::uint64_t line() const { return XML_GetCurrentLineNumber(parser_.get()); }
   std::size_t byte_index() const {
     return static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
@@ -122,7 +101,7 @@ class Reader {
       fail_at(line(), "elements and attributes of XML have more than " + std::to_string(kMaxNames) +
                           " different names");
     }
-    return handler_.open(Element(*this, name, attributes));
+    return handler_.open({name, attributes, line(), byte_index() + byte_count()});
   }
 
   void text(std::string_view text) {
@@ -162,6 +141,13 @@ class Reader {
 };
 
 }  // namespace
+
+std::string XmlElement::attribute(std::string_view which) const {
+  for (const char** a = attributes; *a != nullptr; a += 2) {
+    if (which == a[0]) return a[1];
+  }
+  return "";
+}
 
 XmlEnd read_xml(std::string_view bytes, XmlHandler& handler) {
   return Reader(bytes, handler).run();

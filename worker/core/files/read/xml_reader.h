@@ -8,14 +8,14 @@
 namespace affskel::core {
 
 /// The start tag of an element; valid while it is handled.
-class XmlElement {
- public:
-  virtual ~XmlElement() = default;
-  virtual std::string_view name() const = 0;
+struct XmlElement {
+  std::string_view name;
+  const char** attributes;  ///< name, value, name, value, ..., null
+  std::uint64_t line;       ///< where the tag begins, counted from 1
+  std::size_t end;          ///< behind the tag, in bytes
+
   /// Value of an attribute with its references replaced, empty when there is none.
-  virtual std::string attribute(std::string_view name) const = 0;
-  virtual std::uint64_t line() const = 0;  ///< where the tag begins, counted from 1
-  virtual std::size_t end() const = 0;     ///< behind the tag, in bytes
+  std::string attribute(std::string_view which) const;
 };
 
 /// Takes the contents of an XML text in their order; comments and processing instructions are left out.
