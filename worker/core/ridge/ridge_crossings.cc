@@ -37,7 +37,7 @@ std::vector<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeVa
     const double t = slope_x / (slope_x - slope_y);
     const RidgeCrossing crossing =
         crossing_at(lattice, values, {x, axis, place}, y, t, (1 - t) * e_x + (t * turn) * e_y);
-    if (values.counts(crossing.at.strength, crossing.at)) result.push_back(crossing);
+    if (values.counts(crossing.at)) result.push_back(crossing);
   });
   return result;
 }

@@ -150,7 +150,7 @@ class CurveFinder {
     const auto [known, fresh] = number_.try_emplace(key, kNone);
     if (!fresh) return known->second;
     const CurvePoint point = point_at(face, *weights);
-    if (!values_.counts(point.at.strength, point.at)) return kNone;
+    if (!values_.counts(point.at)) return kNone;
     points_.push_back(point);
     return known->second = static_cast<std::uint32_t>(points_.size() - 1);
   }

@@ -71,12 +71,22 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
 }
 
 bool RidgeValues::is_deep(const SheetVertex& vertex) const {
-  const auto radius = static_cast<double>(radius_[vertex.point]);
-  const double least = constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
-  const Vec3 place = (1 / field_.spacing) * vertex.position;
-  return (radius >= constants_.min_radius &&
-          (is_surely_deep(radius, least) || surface_.nearest(place) >= least)) ||
-         (smoothed_ != nullptr && smoothed_->nearest(place) >= least);
+  return (radius_[vertex.point] >= constants_.min_radius && is_deep(vertex, surface_)) ||
+         (smoothed_ != nullptr && is_deep(vertex, *smoothed_));
+}
+
+// Beside a hollow wall, where E is large up to the surface, noise makes a crest of E along it: a ridge as deep as the
+// noise, that is widened by the Gaussian.  It has the solid on one side only.
+bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const {
+  const Vec3 place = (1 / field_.spacing) * vertex.position, wall = surface.nearest_place(place);
+  const double radius = norm(place - wall);
+  if (radius < constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth) ||
+      radius == 0)
+    return false;
+  const Vec3 inwards = (1 / radius) * (place - wall), across = unit(vertex.normal_a - vertex.normal_b);
+  const double along = dot(across, inwards) * dot(across, inwards);
+  const double ball = radius / std::lerp(constants_.min_share_across, constants_.min_share_along, along);
+  return surface.nearest(wall + ball * inwards) < constants_.min_ball * ball;
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

@@ -62,13 +62,11 @@ class RidgeValues {
   /// grad P, per spacing.
   Vec3 gradient(std::uint32_t point) const;
 
-  /// Whether a strength reaches the bound, at a vertex far enough from the surface.
-  bool counts(double strength, const SheetVertex& vertex) const {
-    return strength >= min_strength_ && is_deep(vertex);
-  }
-
   /// What a strength is that of.
   enum class Of { kSurface, kCurve };
+
+  /// Whether a vertex is strong enough, and far enough from the surface.
+  bool counts(const SheetVertex& vertex) const { return vertex.strength >= min_strength_ && is_deep(vertex); }
 
   /// The vertex at `position` that has the weighted mean of the points' values.
   /// @param points the first one becomes the vertex's sample point.
@@ -79,6 +77,7 @@ class RidgeValues {
 
  private:
   bool is_deep(const SheetVertex& vertex) const;
+  bool is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const;
 
   const FrameField& field_;
   std::span<const PointDerivatives> derivatives_;

@@ -80,7 +80,7 @@ TEST(RidgeSheet, OfABodyUnderNoiseThatMakesItCrossItselfKeepsItsShape) {
   const Similarity alike = similarity(clean_places, noisy_places);
   const double radius = box_diagonal(mesh) / 128;
   EXPECT_GT(alike.b_in_a.share_within(radius), 0.93);
-  EXPECT_GT(alike.a_in_b.share_within(radius), 0.9);
+  EXPECT_GT(alike.a_in_b.share_within(radius), 0.89);
 }
 
 // What is equally far is collapsed alike on both sides of the plane of symmetry, though the lattice's order runs towards

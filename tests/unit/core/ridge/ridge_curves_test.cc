@@ -46,8 +46,9 @@ std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field
   const std::vector<PointDerivatives> derivatives =
       smoothed_derivatives(box.lattice, field, 1, nullptr, narrow);
   const std::vector<float> everywhere(box.lattice.points, radius);
-  const Mesh wall = moved(make_box(1, 1, 1), {-1.5 * radius, 0, 0});  // lattice coordinates
-  const DistanceToMesh nearest(wall);
+  const double low = 10 - static_cast<double>(radius), side = 2 * static_cast<double>(radius);
+  const Mesh walls = moved(make_box(side, side, side), {low, low, low});  // lattice coordinates
+  const DistanceToMesh nearest(walls);
   const RidgeValues values(box.lattice, field, derivatives, everywhere, nearest, nullptr, min_strength);
   return ridge_curves(box.lattice, values, context);
 }

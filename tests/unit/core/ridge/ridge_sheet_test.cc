@@ -11,6 +11,7 @@
 #include "core/collapse/lattice_solids.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/edges.h"
+#include "core/mesh/perturb.h"
 #include "core/mesh/polylines.h"
 #include "core/ridge/sheet_solids.h"
 #include "core/shapes/implicit_mesh.h"
@@ -64,6 +65,15 @@ TEST(RidgeSheet, OfATorusIsAnAnnulusOffTheInnerSurface) {
   EXPECT_LT(r.low, 2 + 2 * h);
   EXPECT_GT(r.high, 2.5);
   EXPECT_LT(r.high, 3);
+}
+
+// Noise makes crests of E along the inner wall, where E is large: the skeleton has none of them.
+TEST(RidgeSheet, OfANoisyTorusKeepsOffTheInnerSurface) {
+  const double h = 0.09;
+  const ErodedSolid torus(perturb(make_torus(3, 1, 2048), {.sigma = 0.03}), axes(h), "triangles");
+  const RidgeSheet sheet = ridge_sheet(torus.solid, torus.lattice, torus.field);
+  EXPECT_EQ(topology(sheet), (BettiNumbers{1, 1, 0}));
+  for (const SheetVertex& v : sheet.vertices) EXPECT_NEAR(torus.place(v.position).z, 0, h);
 }
 
 // In the middle of a flat box two opposite chords are equal.
@@ -225,7 +235,8 @@ TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
                      }};
   RidgeConstants constants;
   constants.min_width = constants.max_width = 1;
-  constants.min_radius_share = 0;  // E is large at the surface, too
+  constants.min_radius_share = 0;                          // E is large at the surface, too
+  constants.min_share_along = constants.min_share_across;  // the box reaches far beyond its middle
   const RidgeSheet sheet =
       ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), {}, constants);
   // The box has no void: the pocket is opened, at one square.
