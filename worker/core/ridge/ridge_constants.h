@@ -21,13 +21,12 @@ struct RidgeConstants {
   double width_at(double depth) const { return std::clamp(width * depth, min_width, max_width); }
 
   // What counts as ridge: not nearer to the surface than this share of the local depth, nor than so many
-  // spacings: in hollows of the surface E is large.  Nor than a share of the radius of a ball in the solid that touches
-  // the surface at the same place, a larger one for a sheet along the surface; noise may reach into the ball.
-  // And from this share of the lower bound on, for the line where it ends.
+  // spacings: in hollows of the surface E is large.  Nor than a share of the radius of a ball in the solid
+  // that touches the surface at the same place; noise may reach into the ball.  And from this share of the
+  // lower bound on, for the line where it ends.
   double strip = 0.25;  ///< half the least width of a surface in a limb, radii: else it is a curve
   double min_radius_share = 0.315;
-  double min_share_across = 0.25;
-  double min_share_along = 0.565;
+  double min_ball_share = 0.25;
   double min_ball = 0.7;  ///< of the ball's radius: so far from its middle there may be surface
   double min_radius = 1.5;
   double weak_share = 0.125;

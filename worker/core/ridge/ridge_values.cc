@@ -83,10 +83,8 @@ bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surfa
   if (radius < constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth) ||
       radius == 0)
     return false;
-  const Vec3 inwards = (1 / radius) * (place - wall), across = unit(vertex.normal_a - vertex.normal_b);
-  const double along = dot(across, inwards) * dot(across, inwards);
-  const double ball = radius / std::lerp(constants_.min_share_across, constants_.min_share_along, along);
-  return surface.nearest(wall + ball * inwards) < constants_.min_ball * ball;
+  const double ball = radius / constants_.min_ball_share;
+  return surface.nearest(wall + (ball / radius) * (place - wall)) < constants_.min_ball * ball;
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

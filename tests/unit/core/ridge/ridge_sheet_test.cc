@@ -235,8 +235,7 @@ TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
                      }};
   RidgeConstants constants;
   constants.min_width = constants.max_width = 1;
-  constants.min_radius_share = 0;                          // E is large at the surface, too
-  constants.min_share_along = constants.min_share_across;  // the box reaches far beyond its middle
+  constants.min_radius_share = 0;  // E is large at the surface, too
   const RidgeSheet sheet =
       ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), {}, constants);
   // The box has no void: the pocket is opened, at one square.
