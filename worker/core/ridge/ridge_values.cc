@@ -83,8 +83,8 @@ bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surfa
   if (radius < constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth) ||
       radius == 0)
     return false;
-  const double ball = radius / constants_.min_ball_share;
-  return surface.nearest(wall + (ball / radius) * (place - wall)) < constants_.min_ball * ball;
+  const Vec3 ball = (1 / constants_.min_ball_share) * (place - wall);  // from the wall to its middle
+  return surface.nearest(wall + ball) < constants_.min_ball * norm(ball);
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

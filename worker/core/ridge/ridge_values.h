@@ -20,14 +20,6 @@ namespace affskel::core {
 
 constexpr double kMaxRidgeStrength = 1000;  ///< where the gradient vanishes, s has no bound
 
-/// Whether no place next to a sample point is nearer to the surface than `least` spacings, as far as its distance by
-/// ways over sample points tells: a place is nearer than the point by a spacing at most, the point than half a
-/// spacing, and ways along the three kinds of diagonals are longer than straight ones by 14 % at most.
-/// @param radius of the sample point, see surface_distance().
-constexpr bool is_surely_deep(double radius, double least) {
-  return radius - 1.75 >= 1.14 * least;
-}
-
 /// The Hessian of P at a sample point, lambda_1 <= lambda_2 <= lambda_3; all 0 where it cannot give a ridge.
 struct PointRidge {
   std::array<float, 3> across{};  ///< e_1, the eigenvector of lambda_1, unit, of either sign
