@@ -22,11 +22,13 @@ struct RidgeConstants {
 
   // What counts as ridge: not nearer to the surface than this share of the local depth, nor than so many
   // spacings: in hollows of the surface E is large.  Nor than a share of the radius of a ball in the solid
-  // that touches the surface at the same place; noise may reach into the ball.  And from this share of the
-  // lower bound on, for the line where it ends.
+  // that touches the surface at the same place; noise may reach into the ball.  A larger share where noise makes the
+  // surface cross itself and the ridge lies along it: without noise, forks have such ridges.  And from this share of
+  // the lower bound on, for the line where it ends.
   double strip = 0.25;  ///< half the least width of a surface in a limb, radii: else it is a curve
   double min_radius_share = 0.315;
   double min_ball_share = 0.25;
+  double noisy_ball_share = 0.565;
   double min_ball = 0.7;  ///< of the ball's radius: so far from its middle there may be surface
   double min_radius = 1.5;
   double weak_share = 0.125;

@@ -83,8 +83,15 @@ bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surfa
   if (radius < constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth) ||
       radius == 0)
     return false;
-  const Vec3 ball = (1 / constants_.min_ball_share) * (place - wall);  // from the wall to its middle
-  return surface.nearest(wall + ball) < constants_.min_ball * norm(ball);
+  double share = constants_.min_ball_share;
+  if (smoothed_ != nullptr) {
+    // Of the normals' difference, which is across the ridge, as much as leads to the wall.
+    const Vec3 across = vertex.normal_a - vertex.normal_b;
+    const double along = dot(across, place - wall) / radius, size = norm(across);
+    if (size > 0) share = std::lerp(share, constants_.noisy_ball_share, along * along / (size * size));
+  }
+  const Vec3 ball = (1 / share) * (place - wall);  // from the wall to its middle
+  return surface.comes_within(constants_.min_ball * norm(ball), wall + ball);
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

@@ -76,6 +76,22 @@ TEST(RidgeSheet, OfANoisyTorusKeepsOffTheInnerSurface) {
   for (const SheetVertex& v : sheet.vertices) EXPECT_NEAR(torus.place(v.position).z, 0, h);
 }
 
+// A plate in the plane z = 0 with a hole, of which noise makes crests along the wall of the hole and the rounded edges.
+TEST(RidgeSheet, OfANoisyPlateWithAHoleLiesInItsMiddle) {
+  const auto plate = [](const Vec3& p) {
+    const Vec3 beyond{std::max(0.0, std::abs(p.x) - 0.5), std::max(0.0, std::abs(p.y) - 0.5),
+                      std::max(0.0, std::abs(p.z) - 0.1)};
+    return std::max(norm(beyond) - 0.1, 0.2 - std::hypot(p.x, p.y));
+  };
+  const double h = 0.02;
+  const Mesh mesh = mesh_zero_set(plate, {{-0.7, -0.7, -0.3}, {0.7, 0.7, 0.3}, 0.05});
+  const ErodedSolid noisy(perturb(mesh, {.sigma = 0.01, .seed = 2}), axes(h), "triangles");
+  ASSERT_TRUE(noisy.solid.self_intersecting);
+  const RidgeSheet sheet = ridge_sheet(noisy.solid, noisy.lattice, noisy.field);
+  EXPECT_EQ(topology(sheet), (BettiNumbers{1, 1, 0}));
+  for (const SheetVertex& v : sheet.vertices) EXPECT_NEAR(noisy.place(v.position).z, 0, h);
+}
+
 // In the middle of a flat box two opposite chords are equal.
 TEST(RidgeSheet, OfAFlatBoxIsTheMiddleRectangleAtEverySpacing) {
   for (const double h : {6.0 / 32, 6.0 / 45}) {
