@@ -200,7 +200,7 @@ void compute(const ComputeOptions& options) {
   if (infimum) {
     const core::Stopwatch refining;
     field.infimum = core::refine(core::PieceInput(solid, options.threads), lattice, directions, field.set,
-                                 {.threads = options.threads}, context);
+                                 options.threads, context);
     refine_s = " refine_s=" + six_decimals(refining.seconds());
   }
   const double wall_s = wall.seconds();

@@ -71,7 +71,7 @@ v1::Stance stance_message(const core::Stance& stance) {
 
 core::Stance stance_of(const StanceChoice& choice, const v1::Job& job, const core::Mesh& mesh) {
   if (choice.up && choice.front) return {*choice.up, *choice.front};
-  if (choice.up) return core::find_stance(mesh, {choice.up});
+  if (choice.up) return core::find_stance(mesh, choice.up);
   if (const auto kept = kept_stance(job); kept && !choice.by_shape) return *kept;
   return core::find_stance(mesh);
 }

@@ -44,13 +44,13 @@ double spread_points(const ShapeFile& shape, std::uint64_t samples, std::vector<
   const double length = core::curve_length(mesh.points, shape.segments);
   double distance = length / static_cast<double>(samples);
   if (!mesh.triangles.empty()) {
-    points = core::surface_samples(mesh, {samples});
+    points = core::surface_samples(mesh, samples);
     distance = std::sqrt(core::surface_area(mesh) / static_cast<double>(points.size()));
   }
   if (shape.segments.empty() || length == 0) return distance;
   const double wanted = std::clamp(std::ceil(length / distance), 1.0, static_cast<double>(samples));
   const std::vector<core::Vec3> more =
-      core::curve_samples(mesh.points, shape.segments, {static_cast<std::size_t>(wanted)});
+      core::curve_samples(mesh.points, shape.segments, static_cast<std::size_t>(wanted));
   points.insert(points.end(), more.begin(), more.end());
   return distance;
 }

@@ -19,7 +19,7 @@
 #include "core/ridge/ridge_sheet.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
-#include "core/shocks/zucker_hummel.h"
+#include "core/shocks/shock_operator.h"
 #include "core/solid/solid_frame.h"
 
 namespace {
@@ -133,7 +133,7 @@ void print_hash(const char* name, const Mesh& mesh, const std::string& direction
     optimal.push_back(value.direction);
     values.push_back({scale * scale * scale * value.erosion, scale * scale * value.area, value.direction});
   }
-  for (double h : zucker_hummel_divergence(lattice, set, optimal)) hash.add(h);
+  for (double h : divergence(ShockOperator::kZuckerHummel, lattice, set, optimal)) hash.add(h);
   const FrameField field = frame_field(lattice, set, values);
   std::printf("%-12s R=%u K=%zu %016" PRIx64 " %016" PRIx64 " %016" PRIx64 "\n", name, lattice.points,
               set.size(), hash.value(), chords_hash(solid, lattice, field, threads),

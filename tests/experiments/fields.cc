@@ -36,7 +36,7 @@ void Fields::go_on() {
   core::ExecutionContext context;
   const core::PieceInput input(job_.solid, threads_);
   const std::vector<core::LeastChord> least =
-      core::refine(input, job_.lattice, job_.directions, erosion_->field(), {.threads = threads_}, context);
+      core::refine(input, job_.lattice, job_.directions, erosion_->field(), threads_, context);
   job_.directions.clear();
   job_.over_set = false;
   for (std::uint32_t p = 0; p < least.size(); ++p) {

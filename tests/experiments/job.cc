@@ -89,7 +89,7 @@ Job compute(const core::Mesh& mesh, const JobOptions& options) {
 Cloud thresholded(const Job& job, std::span<const double> divergence, double threshold) {
   std::vector<std::uint32_t> rank;
   for (const core::SkeletonPoint& point :
-       core::skeleton_points({divergence.begin(), divergence.end()}, {threshold})) {
+       core::skeleton_points({divergence.begin(), divergence.end()}, threshold)) {
     rank.push_back(point.point);
   }
   return cloud_of(job, std::move(rank));

@@ -32,9 +32,9 @@ struct Skeletons {
 
 Points points_of(const Sheet& sheet) {
   Points points;
-  if (!sheet.mesh.triangles.empty()) points = core::surface_samples(sheet.mesh, {kSurfacePoints});
+  if (!sheet.mesh.triangles.empty()) points = core::surface_samples(sheet.mesh, kSurfacePoints);
   if (sheet.segments.empty()) return points;
-  const Points curves = core::curve_samples(sheet.mesh.points, sheet.segments, {kCurvePoints});
+  const Points curves = core::curve_samples(sheet.mesh.points, sheet.segments, kCurvePoints);
   points.insert(points.end(), curves.begin(), curves.end());
   return points;
 }
@@ -42,7 +42,7 @@ Points points_of(const Sheet& sheet) {
 Skeletons skeletons_of(const core::Mesh& mesh, const JobOptions& options) {
   const CurveSkeleton curvature = curvature_skeleton(mesh);
   return {points_of(ridge_sheet_of(compute(mesh, options))), inner_poles(mesh, kSurfacePoints),
-          core::curve_samples(curvature.points, curvature.segments, {kCurvePoints})};
+          core::curve_samples(curvature.points, curvature.segments, kCurvePoints)};
 }
 
 Points mapped(const core::AffineMap& map, Points points) {

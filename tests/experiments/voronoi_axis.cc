@@ -38,7 +38,7 @@ std::vector<core::Vec3> inner_poles(const core::Mesh& mesh, std::size_t samples)
   const Surface surface = surface_of(mesh);
   const CGAL::Side_of_triangle_mesh<Surface, Kernel> side(surface);
   std::vector<Point> points;
-  for (const core::Vec3& p : core::surface_samples(mesh, {samples})) points.emplace_back(p.x, p.y, p.z);
+  for (const core::Vec3& p : core::surface_samples(mesh, samples)) points.emplace_back(p.x, p.y, p.z);
   const Delaunay delaunay(points.begin(), points.end());
   std::vector<core::Vec3> poles;
   std::vector<Delaunay::Cell_handle> cells, taken;

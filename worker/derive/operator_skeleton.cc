@@ -50,7 +50,7 @@ v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::Skele
   const core::ShockOperator which = core_operator(params.operator_());
   const double threshold = threshold_of(field, params);
   const std::vector<double> divergence = divergence_of(field, which);
-  const std::vector<core::SkeletonPoint> kept = core::skeleton_points(divergence, {threshold});
+  const std::vector<core::SkeletonPoint> kept = core::skeleton_points(divergence, threshold);
   const std::vector<core::LatticePlace> places = places_of(field, kept);
   v1::SkeletonPoints message;
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -67,7 +67,7 @@ v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::Skele
 v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceParams& params) {
   const std::vector<core::SkeletonPoint> kept =
       core::skeleton_points(divergence_of(field, core_operator(params.skeleton().operator_())),
-                            {threshold_of(field, params.skeleton())});
+                            threshold_of(field, params.skeleton()));
   std::vector<core::Vec3> points;
   for (const core::LatticePlace& place : places_of(field, kept)) points.push_back(field.in_frame(place));
   field.throw_if_stopped();

@@ -29,9 +29,7 @@ constexpr std::size_t kFewDirections = 40;
 
 core::Solid read_solid(std::string_view bytes, const v1::ErosionParams& params, unsigned threads,
                        core::ExecutionContext* context, std::uint64_t& polygons_cut) {
-  core::ReadOffOptions read_options;
-  read_options.context = context;
-  const core::OffMesh off = core::read_off(bytes, read_options);
+  const core::OffMesh off = core::read_off(bytes, context);
   polygons_cut = off.polygons_cut;
   core::SolidOptions options;
   options.repair = params.repair();

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "core/base/error.h"
+
 namespace affskel::core {
 
 /// Passed into long computations: they ask it at short intervals whether to stop, and tell it what is
@@ -19,7 +21,10 @@ class ExecutionContext {
 
 /// For computations that are all or nothing.
 /// @param context may be null: it is never stopped. @throws CoreError kCancelled when it asks to stop.
-void throw_if_stopped(ExecutionContext* context);
+inline void throw_if_stopped(ExecutionContext* context) {
+  if (context != nullptr && context->stop_requested())
+    throw CoreError(CoreError::Code::kCancelled, "stopped before the end");
+}
 
 /// throw_if_stopped for loops whose rounds are too short to ask in each of them: asks about once a
 /// millisecond.  Used by one thread; several threads each have their own.

@@ -34,6 +34,15 @@ double plain_exp(double x) {
   return sum.value();
 }
 
+double cube_root(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);
+  for (; exponent % 3 != 0; ++exponent) m /= 2;
+  double y = 1;  // 1/8 <= m < 1: seven steps are enough
+  for (int i = 0; i < 10; ++i) y -= (y - m / (y * y)) / 3;
+  return std::ldexp(y, exponent / 3);
+}
+
 double plain_angle(double y, double x) {
   const double width = std::abs(x);
   if (y == 0 && width == 0) return 0;

@@ -12,7 +12,6 @@
 #include "core/curve/limb_forks.h"
 #include "core/curve/limb_sections.h"
 #include "core/curve/line_ends.h"
-#include "core/curve/parabola_fit.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
@@ -44,6 +43,23 @@ constexpr double kHold = 0.02;
 constexpr double kParallel = 0.08, kOblique = 0.15;
 
 constexpr double kFarForks = 2;  // sizes of a joint: how limbs part farther from there says nothing of it
+
+// The parabola through places at times t, by least squares.
+class ParabolaFit {
+ public:
+  void add(double t, const Vec3& place) {
+    const Vec3 powers{1, t, t * t};
+    sums_ = sums_ + outer(powers, powers);
+    places_ = places_ + outer(place, powers);
+  }
+  Vec3 at_0() const {
+    const Vec3 row = inverse_transposed(sums_)[0];  // the sums are symmetric
+    return row.x * places_[0] + row.y * places_[1] + row.z * places_[2];
+  }
+
+ private:
+  Matrix3 sums_{}, places_{};
+};
 
 class CentreLines {
  public:

@@ -88,15 +88,12 @@ class Collapse {
     }
   }
 
-  double length(std::uint32_t a, std::uint32_t b) const {
-    return norm(sheet_.vertices[a].position - sheet_.vertices[b].position);
-  }
-
   // Per vertex: how far the nearest of `from` is, along the sheet.
   std::vector<double> distances(std::vector<std::uint32_t> from) const {
     CheapestWays ways(std::move(from));
     ways.find([&](std::uint32_t v, const auto& go) {
-      for_each_step(v, [&](std::uint32_t to) { go(to, length(v, to), v); });
+      const Vec3& at = sheet_.vertices[v].position;
+      for_each_step(v, [&](std::uint32_t to) { go(to, norm(at - sheet_.vertices[to].position), v); });
     });
     return std::move(ways.cost);
   }

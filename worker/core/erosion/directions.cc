@@ -6,7 +6,7 @@
 #include "base/quoted.h"
 #include "core/base/error.h"
 #include "core/base/split_mix64.h"
-#include "core/mesh/icosahedron.h"
+#include "core/mesh/geodesic_sphere.h"
 
 namespace affskel::core {
 namespace {
@@ -29,10 +29,6 @@ Vec3 direction_of(const Vec3& v) {
   const Vec3 w{v.x / big, v.y / big, v.z / big};
   const double length = norm(w);
   return {w.x / length, w.y / length, w.z / length};
-}
-
-void add_triangles(const Solid& solid, DirectionSet& set) {
-  for (const Triangle& t : solid.mesh.triangles) set.push_back(-direction_of(twice_area(solid.mesh, t)));
 }
 
 void add_face(const Vec3& a, const Vec3& b, const Vec3& c, std::uint64_t f, DirectionSet& set) {
@@ -112,7 +108,8 @@ DirectionSet make_directions(const Solid& solid, std::string_view spec, const Di
     const std::size_t before = set.size();
     switch (part.kind) {
       case Part::Kind::kTriangles:
-        add_triangles(solid, set);
+        for (const Triangle& t : solid.mesh.triangles)
+          set.push_back(-direction_of(twice_area(solid.mesh, t)));
         break;
       case Part::Kind::kSphere:
         add_sphere(part.count, set);

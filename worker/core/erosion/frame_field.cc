@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/cube_root.h"
+#include "core/base/plain_math.h"
 #include "core/base/unit.h"
 #include "core/lattice/lattice_coordinates.h"
 

@@ -20,7 +20,6 @@
 #include "core/base/error.h"
 #include "core/erosion/height_order.h"
 #include "core/erosion/section_bends.h"
-#include "core/erosion/tree_input.h"
 
 namespace affskel::core {
 namespace {
@@ -111,10 +110,7 @@ double pass_volumes(const std::vector<std::uint32_t>& order, const SectionBends&
 class JoinTreeBuilder::Work {
  public:
   Work(const TreeInput& input, const JoinTreeOptions& options)
-      : input_(input.data()),
-        tolerance_(input.volume_tolerance()),
-        options_(options),
-        heights_(input_.mesh.points) {
+      : input_(input), tolerance_(input.volume_tolerance()), options_(options), heights_(input_.mesh.points) {
     const std::size_t vertices = input_.mesh.points.size(), triangles = input_.mesh.triangles.size();
     topology_.vertex_arc.resize(vertices);
     tree_.triangle_arc.resize(triangles);
@@ -375,7 +371,7 @@ class JoinTreeBuilder::Work {
                     "join tree invariant broken for direction " + in_words(d_) + ": " + what);
   }
 
-  const TreeInput::Data& input_;
+  const TreeInput& input_;
   double tolerance_;
   JoinTreeOptions options_;
   Vec3 d_;

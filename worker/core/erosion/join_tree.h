@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/vec3.h"
-#include "core/solid/solid.h"
+#include "core/erosion/tree_input.h"
 
 namespace affskel::core {
 
@@ -88,28 +88,6 @@ struct JoinTree {
     while (first != last && first[1].height <= h) ++first;
     return *first;
   }
-};
-
-/// What all directions of a solid share: area vectors, fans, a tree of boxes for rays, and a copy of the
-/// mesh.  Immutable; threads share it.
-class TreeInput {
- public:
-  /// Computed on up to `threads` threads.
-  explicit TreeInput(const Solid& solid, unsigned threads = 1);
-  ~TreeInput();
-
-  struct Data;
-  const Data& data() const { return *data_; }
-
-  /// Triangles and edges that rise less than this (scaled units) count as level.
-  static constexpr double kLevelHeight = 1e-11;
-
-  /// Largest error of a computed volume, and the most by which it may fall along a run, scaled units: 1e-9 v0
-  /// and kLevelHeight times the surface (which includes the rounding of heights to 2^-44).
-  double volume_tolerance() const;
-
- private:
-  std::unique_ptr<Data> data_;
 };
 
 struct JoinTreeOptions {

@@ -109,7 +109,7 @@ inline std::array<std::uint32_t, 3> by_rank(const Triangle& t, const Vertex* ver
   return {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
 }
 
-void pass_triangles(const TreeInput::Data& input, const Vec3& d, SectionBends& out) {
+void pass_triangles(const TreeInput& input, const Vec3& d, SectionBends& out) {
   const std::span<const Triangle> triangles = input.mesh.triangles;
   const Vec3* area_vector = input.area_vector.data();
   std::uint32_t* lowest = out.lowest.data();
@@ -143,7 +143,7 @@ void pass_triangles(const TreeInput::Data& input, const Vec3& d, SectionBends& o
 
 }  // namespace
 
-void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
+void find_section_bends(const TreeInput& input, const HeightOrder& heights, const Vec3& d,
                         SectionBends& out) {
   const std::vector<std::uint32_t>& order = heights.order();
   out.vertices.resize(order.size());

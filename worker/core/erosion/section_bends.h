@@ -50,7 +50,6 @@ struct SectionBends {
 
 /// Fills `out`, whose memory is reused, for unit vector d and the order of heights along it.  O(N), and
 /// the sorting of the jumps.
-void find_section_bends(const TreeInput::Data& input, const HeightOrder& heights, const Vec3& d,
-                        SectionBends& out);
+void find_section_bends(const TreeInput& input, const HeightOrder& heights, const Vec3& d, SectionBends& out);
 
 }  // namespace affskel::core

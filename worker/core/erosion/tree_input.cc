@@ -6,17 +6,11 @@
 
 #include "core/base/parallel.h"
 #include "core/base/plain_math.h"
-#include "core/mesh/edges.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/locality_order.h"
 
 namespace affskel::core {
 namespace {
-
-// Not by libm: which side of a vertex the solid lies on is decided by these angles.
-double angle_between(const Vec3& a, const Vec3& b) {
-  return plain_angle(norm(cross(a, b)), dot(a, b));
-}
 
 Vec3 pseudonormal_of(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> fan) {
   Vec3 sum;
@@ -26,7 +20,8 @@ Vec3 pseudonormal_of(const Mesh& mesh, std::uint32_t vertex, std::span<const std
     const Vec3 &p = mesh.points[vertex], &q = mesh.points[c[(i + 1) % 3]], &r = mesh.points[c[(i + 2) % 3]];
     const Vec3 twice = cross(q - p, r - p);
     const double length = norm(twice);
-    if (length != 0) sum = sum + (angle_between(q - p, r - p) / length) * twice;
+    // Angles not by libm: they decide which side of a vertex the solid lies on.
+    if (length != 0) sum = sum + (plain_angle(length, dot(q - p, r - p)) / length) * twice;
   }
   return sum;
 }
@@ -62,12 +57,12 @@ Mesh in_order(const Mesh& mesh, const std::vector<std::uint32_t>& vertices,
 
 }  // namespace
 
-TreeInput::Data::Data(const Solid& s, unsigned threads)
+TreeInput::TreeInput(const Solid& s, unsigned threads)
     : original_vertex(locality_order(s.mesh.points)),
       original_triangle(locality_order(centroids(s.mesh))),
       mesh(in_order(s.mesh, original_vertex, original_triangle)),
       pseudonormal(mesh.points.size()),
-      fans(triangles_of_vertices(mesh.points.size(), mesh.triangles)),
+      fans(holders(mesh.points.size(), mesh.triangles)),
       vertex_solid(mesh.points.size(), 0),
       rays(mesh, threads) {
   area_vector.reserve(mesh.triangles.size());
@@ -94,7 +89,7 @@ TreeInput::Data::Data(const Solid& s, unsigned threads)
   }
 }
 
-void TreeInput::Data::find_crossings(const Solid& solid) {
+void TreeInput::find_crossings(const Solid& solid) {
   const std::vector<std::uint32_t> place = inverse(original_triangle);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // both ways
   for (const auto& [i, j] : solid.crossings) {
@@ -111,7 +106,7 @@ void TreeInput::Data::find_crossings(const Solid& solid) {
                }};
 }
 
-void TreeInput::Data::find_nested(unsigned threads) {
+void TreeInput::find_nested(unsigned threads) {
   constexpr double kOffset = 1e-7;  // far less than the spacing of any lattice
   const SolidMembership membership(mesh);
   nested.resize(mesh.points.size());
@@ -122,13 +117,6 @@ void TreeInput::Data::find_nested(unsigned threads) {
       nested[v] = membership.contains(mesh.points[v] + (kOffset / length) * pseudonormal[v]);
     }
   });
-}
-
-TreeInput::TreeInput(const Solid& solid, unsigned threads) : data_(std::make_unique<Data>(solid, threads)) {}
-TreeInput::~TreeInput() = default;
-
-double TreeInput::volume_tolerance() const {
-  return 1e-9 * data_->volume + kLevelHeight * data_->surface_area;
 }
 
 }  // namespace affskel::core

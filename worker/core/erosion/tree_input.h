@@ -5,16 +5,26 @@
 #include <vector>
 
 #include "core/base/groups.h"
-#include "core/erosion/join_tree.h"
 #include "core/solid/solid.h"
 #include "core/spatial/ray_shooter.h"
 
 namespace affskel::core {
 
-/// What TreeInput holds; for the sources of the join tree only.  Vertices and triangles are numbered anew, so
-/// that neighbours are near in memory: every direction visits all of them.
-struct TreeInput::Data {
-  Data(const Solid& solid, unsigned threads);
+/// What the join trees of all directions of a solid share: area vectors, fans, a tree of boxes for rays, and a copy of the
+/// mesh, whose vertices and triangles are numbered anew, so that neighbours are near in memory: every direction visits
+/// all of them.  Immutable; threads share it.
+struct TreeInput {
+  /// Computed on up to `threads` threads.
+  explicit TreeInput(const Solid& solid, unsigned threads = 1);
+  TreeInput(const TreeInput&) = delete;
+  TreeInput& operator=(const TreeInput&) = delete;
+
+  /// Triangles and edges that rise less than this (scaled units) count as level.
+  static constexpr double kLevelHeight = 1e-11;
+
+  /// Largest error of a computed volume, and the most by which it may fall along a run, scaled units: 1e-9 v0
+  /// and kLevelHeight times the surface (which includes the rounding of heights to 2^-44).
+  double volume_tolerance() const { return 1e-9 * volume + kLevelHeight * surface_area; }
 
   /// Triangles round a vertex.
   std::span<const std::uint32_t> fan(std::uint32_t vertex) const { return fans[vertex]; }

@@ -21,10 +21,6 @@ std::vector<LatticeColumn> field_columns(const FieldColumns& wanted) {
   return columns;
 }
 
-bool is_text(FileFormat format) {
-  return format == FileFormat::kCsv || format == FileFormat::kDat;
-}
-
 }  // namespace
 
 FieldFile::FieldFile(FileFormat format, base::AtomicFile& file, const LatticeGrid& lattice, double volume,
@@ -33,7 +29,7 @@ FieldFile::FieldFile(FileFormat format, base::AtomicFile& file, const LatticeGri
       axes_(lattice.axes),
       volume_(volume),
       columns_(columns) {
-  if (is_text(format)) return;
+  if (format == FileFormat::kCsv || format == FileFormat::kDat) return;
   outside_.emplace(lattice.dims, [this](const PlaceAround& at, double erosion) {
     table_->put_outside(at, kErosion, erosion);
     table_->put_outside(at, kShare, erosion / volume_);

@@ -4,33 +4,30 @@
 #include <cstddef>
 
 namespace affskel::core {
-namespace {
-
-constexpr std::array kField = {FileFormat::kCsv, FileFormat::kDat,    FileFormat::kVti,
-                               FileFormat::kVts, FileFormat::kVtkHdf, FileFormat::kHdf};
-constexpr std::array kSkeleton = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff, FileFormat::kXyz,
-                                  FileFormat::kVtp};
-constexpr std::array kSurface = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
-                                 FileFormat::kVtp};
-constexpr std::array kCurve = {FileFormat::kVtp,     FileFormat::kObj, FileFormat::kPly, FileFormat::kJson,
-                               FileFormat::kGraphMl, FileFormat::kSwc, FileFormat::kGlb};
-
-}  // namespace
 
 std::span<const FileFormat> field_formats() {
-  return kField;
+  static constexpr std::array kFormats = {FileFormat::kCsv, FileFormat::kDat,    FileFormat::kVti,
+                                          FileFormat::kVts, FileFormat::kVtkHdf, FileFormat::kHdf};
+  return kFormats;
 }
 
 std::span<const FileFormat> skeleton_formats() {
-  return kSkeleton;
+  static constexpr std::array kFormats = {FileFormat::kCsv, FileFormat::kPly, FileFormat::kOff,
+                                          FileFormat::kXyz, FileFormat::kVtp};
+  return kFormats;
 }
 
 std::span<const FileFormat> surface_formats() {
-  return kSurface;
+  static constexpr std::array kFormats = {FileFormat::kOff, FileFormat::kPly, FileFormat::kObj,
+                                          FileFormat::kStl, FileFormat::kVtp};
+  return kFormats;
 }
 
 std::span<const FileFormat> curve_formats() {
-  return kCurve;
+  static constexpr std::array kFormats = {FileFormat::kVtp,  FileFormat::kObj,     FileFormat::kPly,
+                                          FileFormat::kJson, FileFormat::kGraphMl, FileFormat::kSwc,
+                                          FileFormat::kGlb};
+  return kFormats;
 }
 
 std::string_view extension_of(FileFormat format) {

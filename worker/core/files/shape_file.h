@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -31,10 +33,18 @@ struct ShapeFile {
   /// Be it of curves alone.
   bool is_surface() const { return !off.mesh.triangles.empty() || !segments.empty(); }
   /// The column of this name, nullptr when there is none.
-  const PointColumn* column(std::string_view name) const;
+  const PointColumn* column(std::string_view name) const {
+    const auto found =
+        std::find_if(columns.begin(), columns.end(), [&](const PointColumn& c) { return c.name == name; });
+    return found == columns.end() ? nullptr : &*found;
+  }
 };
 
 /// A shape of a mesh alone, without a file.
-ShapeFile shape_of(Mesh mesh);
+inline ShapeFile shape_of(Mesh mesh) {
+  ShapeFile shape;
+  shape.off.mesh = std::move(mesh);
+  return shape;
+}
 
 }  // namespace affskel::core

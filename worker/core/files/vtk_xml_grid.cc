@@ -38,7 +38,7 @@ std::string texts(const Vec3& v) {
 class VtkXmlGrid : public GridFile {
  public:
   VtkXmlGrid(base::AtomicFile& file, const LatticeGrid& grid, bool points, std::vector<GridArray> arrays,
-             const FileFacts& facts, const VtkXmlGridOptions& options)
+             const FileFacts& facts, std::uint64_t piece_places)
       : file_(file),
         grid_(grid),
         kind_(points ? "StructuredGrid" : "ImageData"),
@@ -47,7 +47,7 @@ class VtkXmlGrid : public GridFile {
     if (!points && !is_upright(grid)) throw std::logic_error("an image of a turned grid");
     const std::uint64_t in_plane = std::uint64_t{grid.dims[1]} * grid.dims[2];
     planes_ = static_cast<std::uint32_t>(
-        std::clamp<std::uint64_t>(options.piece_places / in_plane, std::min(2U, grid.dims[0]), grid.dims[0]));
+        std::clamp<std::uint64_t>(piece_places / in_plane, std::min(2U, grid.dims[0]), grid.dims[0]));
     write_head(facts);
   }
 
@@ -152,8 +152,8 @@ class VtkXmlGrid : public GridFile {
 
 std::unique_ptr<GridFile> make_vtk_xml_grid(base::AtomicFile& file, const LatticeGrid& grid, bool points,
                                             std::vector<GridArray> arrays, const FileFacts& facts,
-                                            const VtkXmlGridOptions& options) {
-  return std::make_unique<VtkXmlGrid>(file, grid, points, std::move(arrays), facts, options);
+                                            std::uint64_t piece_places) {
+  return std::make_unique<VtkXmlGrid>(file, grid, points, std::move(arrays), facts, piece_places);
 }
 
 }  // namespace affskel::core

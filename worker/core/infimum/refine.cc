@@ -6,9 +6,9 @@
 namespace affskel::core {
 
 std::vector<LeastChord> refine(const PieceInput& input, const Lattice& lattice,
-                               const DirectionSet& directions, const ErosionField& seeds,
-                               const RefineOptions& options, ExecutionContext& context) {
-  Refinement refinement(input, lattice, options.threads);
+                               const DirectionSet& directions, const ErosionField& seeds, unsigned threads,
+                               ExecutionContext& context) {
+  Refinement refinement(input, lattice, threads);
   const PointRange all{0, lattice.points};
   const auto seed = [&](std::uint32_t point) { return seeds.value(point); };
   std::vector<RefinedPoint> found = refinement.descend(directions, seed, all, context);

@@ -15,10 +15,6 @@ namespace affskel::core {
 /// What refine() takes in memory for every sample point, bytes.
 constexpr double kRefineBytesPerPoint = 2 * sizeof(LeastChord) + 6 * sizeof(std::uint32_t) + 25;
 
-struct RefineOptions {
-  unsigned threads = 1;  ///< >= 1; the result does not depend on it
-};
-
 /// Per sample point the least piece over all directions, as far as it is found: E as the definition has it
 /// (Zografos 2003, section 2.2.2: an infimum; it is a limit where the optimal plane touches a saddle).
 ///
@@ -29,10 +25,11 @@ struct RefineOptions {
 /// a function of solid, lattice and seeds.  It is never above the seeds; that it is the infimum is not proven
 /// at every point.
 ///
+/// @param threads >= 1; the result does not depend on it.
 /// @param seeds the field over `directions`.  A point that lies outside within rounding keeps its value.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<LeastChord> refine(const PieceInput& input, const Lattice& lattice,
-                               const DirectionSet& directions, const ErosionField& seeds,
-                               const RefineOptions& options, ExecutionContext& context);
+                               const DirectionSet& directions, const ErosionField& seeds, unsigned threads,
+                               ExecutionContext& context);
 
 }  // namespace affskel::core

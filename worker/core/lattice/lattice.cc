@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/number_text.h"
-#include "core/base/cube_root.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/plain_math.h"
 #include "core/lattice/lattice_memory.h"
 #include "core/lattice/point_spacing.h"
 #include "core/lattice/scan_conversion.h"

@@ -63,8 +63,4 @@ BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triang
   return trees;
 }
 
-Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles) {
-  return holders(points, triangles);
-}
-
 }  // namespace affskel::core

@@ -64,7 +64,4 @@ struct BreadthFirstTrees {
 };
 BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triangle> triangles);
 
-/// The triangles of every vertex, ascending.
-Groups<std::uint32_t> triangles_of_vertices(std::size_t points, std::span<const Triangle> triangles);
-
 }  // namespace affskel::core

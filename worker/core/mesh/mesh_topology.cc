@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-std::uint32_t next_corner(std::uint32_t h) {
-  return h % 3 == 2 ? h - 2 : h + 1;
-}
 std::uint32_t previous_corner(std::uint32_t h) {
   return h % 3 == 0 ? h + 2 : h - 1;
 }
@@ -26,7 +23,7 @@ std::uint32_t from(const Mesh& mesh, std::uint32_t h) {
   return mesh.triangles[h / 3][h % 3];
 }
 std::uint32_t to(const Mesh& mesh, std::uint32_t h) {
-  return from(mesh, next_corner(h));
+  return from(mesh, h % 3 == 2 ? h - 2 : h + 1);
 }
 
 using Sides = std::span<const EdgeSide>;

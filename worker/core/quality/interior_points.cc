@@ -105,8 +105,7 @@ std::vector<Vec3> spread(const std::vector<Interval>& intervals, std::uint32_t c
 
 }  // namespace
 
-std::vector<Vec3> interior_points(const Solid& solid, const InteriorPointsOptions& options) {
-  const std::uint32_t count = std::max<std::uint32_t>(options.count, 1);
+std::vector<Vec3> interior_points(const Solid& solid, std::uint32_t count) {
   const Matrix3 frame = solid_frame(solid, FrameKind::kPca);
   TurnedSolid turned(solid, frame);
   const std::vector<Interval> intervals = inside_intervals(turned, count);

@@ -48,16 +48,14 @@ SkeletonQuality common_part(const Solid& solid, const Lattice& lattice, const st
 std::vector<LatticePlace> places_above(const Lattice& lattice, const std::vector<double>& divergence,
                                        double threshold) {
   std::vector<std::uint32_t> ranks;
-  for (const SkeletonPoint& kept : skeleton_points(divergence, {threshold})) ranks.push_back(kept.point);
+  for (const SkeletonPoint& kept : skeleton_points(divergence, threshold)) ranks.push_back(kept.point);
   return lattice_places(lattice, ranks);
 }
 
 std::vector<Vec3> frame_places(const Lattice& lattice, const std::vector<LatticePlace>& places) {
   std::vector<Vec3> result;
   result.reserve(places.size());
-  for (const auto& [i, j, k] : places) {
-    result.push_back({lattice.spacing * i, lattice.spacing * j, lattice.spacing * k});
-  }
+  for (const LatticePlace& place : places) result.push_back(lattice.spacing * vector_of(place));
   return result;
 }
 

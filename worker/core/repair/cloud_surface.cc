@@ -237,8 +237,8 @@ class Surfacing {
 
 }  // namespace
 
-CloudSurface cloud_surface(std::span<const Vec3> points, const CloudSurfaceOptions& options) {
-  return Surfacing(points, options.context).surface();
+CloudSurface cloud_surface(std::span<const Vec3> points, ExecutionContext* context) {
+  return Surfacing(points, context).surface();
 }
 
 }  // namespace affskel::core

@@ -9,10 +9,6 @@
 
 namespace affskel::core {
 
-struct CloudSurfaceOptions {
-  ExecutionContext* context = nullptr;
-};
-
 struct CloudSurface {
   Mesh mesh;               ///< closed, manifold, outward; may have several parts, and cavities
   std::uint64_t lone = 0;  ///< points far from all others, left out
@@ -27,6 +23,6 @@ struct CloudSurface {
 /// of CGAL.  Noise to both sides keeps the volume, whereas a wrap lies round the outermost points.
 /// @param points of any order, distances and scale. @throws CoreError kBadInput for fewer than a hundred places, for
 ///   points in a plane, and where more than a quarter of the surface is unseen; kCancelled.
-CloudSurface cloud_surface(std::span<const Vec3> points, const CloudSurfaceOptions& options = {});
+CloudSurface cloud_surface(std::span<const Vec3> points, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -12,8 +12,7 @@
 #include "core/base/error.h"
 #include "core/mesh/touching_edges.h"
 #include "core/mesh/unused_points.h"
-#include "core/repair/near_points.h"
-#include "core/repair/t_junctions.h"
+#include "core/repair/open_edges.h"
 #include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {

@@ -200,7 +200,7 @@ void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
 
 // The surface through a cloud, with what was done for it. @return spacing of its points.
 double surface_cloud(const std::vector<Vec3>& points, ExecutionContext* context, RepairedMesh& result) {
-  CloudSurface cloud = cloud_surface(points, {context});
+  CloudSurface cloud = cloud_surface(points, context);
   if (cloud.lone > 0)
     result.steps.push_back(
         {"lone-points", cloud.lone, base::counted(cloud.lone, "point") + " far from all others left out"});

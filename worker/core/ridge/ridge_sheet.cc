@@ -163,14 +163,7 @@ void fill(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
 
 RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
                        ExecutionContext* context, const RidgeConstants& constants) {
-  RidgeBasis basis{.complex = DualComplex(lattice),
-                   .topology = {},
-                   .radius = {},
-                   .thickness = {},
-                   .limbs = {},
-                   .opened_limbs = {},
-                   .loops = {},
-                   .derivatives = {}};
+  RidgeBasis basis{DualComplex(lattice)};
   // One after the other: each takes about as much memory as all that is kept, and beside each other they save a fifth of
   // the time at most.
   basis.topology = betti_numbers(basis.complex, context);

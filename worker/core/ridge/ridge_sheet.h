@@ -27,13 +27,14 @@ struct LatticeLoop {
 /// What the skeletons of one field at all thresholds share.
 struct RidgeBasis {
   DualComplex complex;
-  BettiNumbers topology;                      ///< of the complex
-  std::vector<float> radius;                  ///< per sample point: see surface_distance()
-  std::vector<float> thickness;               ///< see section_radii(); empty where no surface crosses itself
-  std::vector<LimbTip> limbs;                 ///< of the solid, whatever is anchored
-  std::vector<LimbTip> opened_limbs;          ///< where the lattice has tunnels that the solid lacks: without them
-  std::vector<LatticeLoop> loops;             ///< the smallest tunnels, kMaxLoops at most
-  std::vector<PointDerivatives> derivatives;  ///< see smoothed_derivatives()
+  BettiNumbers topology = {};         ///< of the complex
+  std::vector<float> radius = {};     ///< per sample point: see surface_distance()
+  std::vector<float> thickness = {};  ///< see section_radii(); empty where no surface crosses itself
+  std::vector<LimbTip> limbs = {};    ///< of the solid, whatever is anchored
+  std::vector<LimbTip> opened_limbs =
+      {};                               ///< where the lattice has tunnels that the solid lacks: without them
+  std::vector<LatticeLoop> loops = {};  ///< the smallest tunnels, kMaxLoops at most
+  std::vector<PointDerivatives> derivatives = {};  ///< see smoothed_derivatives()
 };
 
 inline constexpr std::size_t kMaxLoops = 8;

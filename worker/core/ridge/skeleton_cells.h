@@ -10,8 +10,7 @@
 namespace affskel::core {
 
 /// What is left of a collapsed complex, its vertices numbered: the topology of the skeleton's mesh.
-class SkeletonCells {
- public:
+struct SkeletonCells {
   using Cell = DualComplex::Cell;
 
   /// A mesh tells edges by their ends.  On both sides of a gap thinner than the spacing edges of the complex may have
@@ -33,15 +32,6 @@ class SkeletonCells {
   std::vector<Triangle> fans;                       ///< about these, which come first
   std::vector<Segment> segments;         ///< the ends of edges, and from middles of squares outwards
   std::vector<std::uint8_t> squares_at;  ///< per segment: how many squares have it
-
- private:
-  Segment ends(const DualComplex& complex, Cell edge) const;
-  void find_rings(const DualComplex& complex);
-  std::vector<char> doubled_edges() const;
-  void find_fanned(const DualComplex& complex, const std::vector<Cell>& edges,
-                   const std::vector<char>& split);
-  void split(const DualComplex& complex, const std::vector<Cell>& edges, const std::vector<char>& split);
-  void fan_out(const DualComplex& complex, Cell square);
 };
 
 }  // namespace affskel::core

@@ -235,10 +235,6 @@ float nearness(double width, const std::vector<double>& ladder, std::size_t step
   return static_cast<float>(std::max(0.0, (ladder[step + 1] - width) / (ladder[step + 1] - ladder[step])));
 }
 
-double width_of(const PointDerivatives& point, const RidgeConstants& constants) {
-  return constants.width_at(static_cast<double>(point.depth));
-}
-
 // Per point: how far the wider of its Gaussians reaches.
 std::vector<std::uint8_t> reaches(const std::vector<float>& depth, const std::vector<double>& ladder,
                                   const RidgeConstants& constants) {
@@ -277,7 +273,7 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   const std::vector<std::span<const LatticeRun>> layers = layers_of(lattice);
   for (std::size_t step = 0; step < ladder.size(); ++step) {
     const auto weight = [&](std::uint32_t p) {
-      return nearness(width_of(result[p], constants), ladder, step);
+      return nearness(constants.width_at(static_cast<double>(result[p].depth)), ladder, step);
     };
     parallel_for(threads, threads,
                  [&](std::size_t part) {  // layers of one remainder: they are unevenly large

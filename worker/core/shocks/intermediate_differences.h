@@ -1,9 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include "core/erosion/directions.h"
-#include "core/lattice/lattice.h"
+#include "core/shocks/neighbourhood.h"
 
 namespace affskel::core {
 
@@ -14,13 +11,13 @@ inline double intermediate_difference_threshold(double spacing) {
   return 1 / spacing;
 }
 
-/// H = div n of the optimal normals at every sample point, by intermediate differences: the derivative along
-/// a lattice axis is (n(x + e) - n(x)) / spacing (Betelu et al. 2001; Zografos 2003, section 3.2.2).  A sheet
-/// shows on its lower side only, one point thick.  A neighbour outside the solid counts as the point itself.
-/// @param directions unit normals in the lattice's frame (see frame_directions).
-/// Returns one value per point, per mesh unit; |H| <= 3 * 2 / spacing.
-std::vector<double> intermediate_difference_divergence(const Lattice& lattice, const DirectionSet& directions,
-                                                       const OptimalDirections& optimal,
-                                                       ExecutionContext* context = nullptr);
+/// H = div n by intermediate differences: the derivative along a lattice axis is (n(x + e) - n(x)) / spacing
+/// (Betelu et al. 2001; Zografos 2003, section 3.2.2).  A sheet shows on its lower side only, one point thick.
+/// Per mesh unit; |H| <= 3 * 2 / spacing.
+inline double intermediate_difference_divergence(const Neighbourhood& normals, double spacing) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) sum += normals.along(a, 1)[a] - normals.centre()[a];
+  return sum / spacing;
+}
 
 }  // namespace affskel::core

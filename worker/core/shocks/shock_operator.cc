@@ -27,18 +27,26 @@
 namespace affskel::core {
 namespace {
 
+// An operator, a function of the normals round a point and of the spacing, at every sample point.
+template <double (*kOperator)(const Neighbourhood&, double)>
+std::vector<double> everywhere(const Lattice& lattice, const DirectionSet& directions,
+                               const OptimalDirections& optimal, ExecutionContext* context) {
+  return at_every_point(lattice, directions, optimal, context,
+                        [&](const Neighbourhood& normals) { return kOperator(normals, lattice.spacing); });
+}
+
 constexpr std::array kOperators = {
     ShockOperatorInfo{ShockOperator::kIntermediate, "intermediate", intermediate_difference_threshold,
-                      intermediate_difference_divergence},
+                      everywhere<intermediate_difference_divergence>},
     ShockOperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
-                      central_difference_divergence},
+                      everywhere<central_difference_divergence>},
     ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel",
                       [](double) { return base::kZuckerHummelThreshold; },
-                      zucker_hummel_divergence},
+                      everywhere<zucker_hummel_divergence>},
     ShockOperatorInfo{ShockOperator::kSobel, "sobel", [](double) { return kSobelThreshold; },
-                      sobel_divergence},
+                      everywhere<sobel_divergence>},
     ShockOperatorInfo{ShockOperator::kFlux, "flux", [](double) { return kAverageOutwardFluxThreshold; },
-                      average_outward_flux},
+                      everywhere<average_outward_flux>},
 };
 
 const ShockOperatorInfo& info_of(ShockOperator shock_operator) {

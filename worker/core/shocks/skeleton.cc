@@ -7,16 +7,14 @@
 
 namespace affskel::core {
 
-std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence,
-                                           const SkeletonOptions& options) {
-  if (!(options.threshold > 0) || !std::isfinite(options.threshold)) {
+std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence, double threshold) {
+  if (!(threshold > 0) || !std::isfinite(threshold)) {
     throw CoreError(CoreError::Code::kBadInput,
-                    "the threshold must be a finite number > 0, not " + base::to_text(options.threshold));
+                    "the threshold must be a finite number > 0, not " + base::to_text(threshold));
   }
   std::vector<SkeletonPoint> kept;
   for (std::size_t p = 0; p < divergence.size(); ++p) {
-    if (std::abs(divergence[p]) > options.threshold)
-      kept.push_back({static_cast<std::uint32_t>(p), divergence[p]});
+    if (std::abs(divergence[p]) > threshold) kept.push_back({static_cast<std::uint32_t>(p), divergence[p]});
   }
   return kept;
 }

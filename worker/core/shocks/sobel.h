@@ -1,23 +1,21 @@
 #pragma once
 
-#include <vector>
-
-#include "core/erosion/directions.h"
-#include "core/lattice/lattice.h"
+#include "core/shocks/neighbourhood.h"
 
 namespace affskel::core {
 
 /// Threshold for |H|, without unit and whatever the spacing: keeps the same jumps as Zucker-Hummel's 7.
+///
+/// At a sheet parallel to two axes where the normal component across jumps by J, a point beside the sheet gets
+/// |H| = J times the weights of a plane: 1 + 2 sqrt(2) + 4 sqrt(3)/3 for Zucker-Hummel, 16 here.
+/// 7 * 16 / (1 + 2 sqrt(2) + 4 sqrt(3)/3) = 18.247.
 constexpr double kSobelThreshold = 18.25;
 
-/// H = div n of the optimal normals at every sample point, by the 3D Sobel operator (masks: Zografos 2003,
-/// appendix B.2): the derivative along a lattice axis is the sum of the differences of the 9 pairs of
-/// neighbours in the planes before and behind, weighted 1 2 1 across 1 2 1, without the published factor
-/// 1/32 and not divided by the spacing.  A neighbour outside the solid counts as the centre itself.
-/// @param directions unit normals in the lattice's frame (see frame_directions).
-/// Returns one value per point; |H| <= 3 * 2 * 16.
-std::vector<double> sobel_divergence(const Lattice& lattice, const DirectionSet& directions,
-                                     const OptimalDirections& optimal,
-                                     ExecutionContext* context = nullptr);
+/// H = div n by the 3D Sobel operator (masks: Zografos 2003, appendix B.2): the derivative along a lattice
+/// axis is the sum of the differences of the 9 pairs of neighbours in the planes before and behind, weighted
+/// 1 2 1 across 1 2 1, without the published factor 1/32 and not divided by the spacing.  |H| <= 3 * 2 * 16.
+inline double sobel_divergence(const Neighbourhood& normals, double /*spacing*/) {
+  return weighted_plane_differences(normals, {4, 2, 1});
+}
 
 }  // namespace affskel::core

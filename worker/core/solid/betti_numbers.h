@@ -18,6 +18,14 @@ struct BettiNumbers {
 /// Those of a solid, from the closed surfaces that bound it: b0 = its connected solids, b1 = the sum of the
 /// genera of all surfaces, those of cavities included, b2 = its cavities.  (For a compact V in space with
 /// boundary S, b1(V) is half of b1(S), which is twice the sum of the genera.)
-BettiNumbers betti_numbers(const Solid& solid);
+inline BettiNumbers betti_numbers(const Solid& solid) {
+  BettiNumbers numbers;
+  numbers.components = solid.solid_volume.size();
+  for (const Shell& shell : solid.shells) {
+    numbers.holes += static_cast<std::uint64_t>(shell.genus);
+    numbers.cavities += shell.cavity;
+  }
+  return numbers;
+}
 
 }  // namespace affskel::core

@@ -14,7 +14,6 @@
 #include "core/mesh/coincident_points.h"
 #include "core/mesh/mesh_topology.h"
 #include "core/mesh/unused_points.h"
-#include "core/solid/copies.h"
 #include "core/solid/shells.h"
 #include "core/solid/specks.h"
 #include "core/spatial/self_intersection.h"

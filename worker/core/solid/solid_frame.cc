@@ -27,8 +27,8 @@
 #include <utility>
 
 #include "core/base/axis_choice.h"
-#include "core/base/cube_root.h"
 #include "core/base/error.h"
+#include "core/base/plain_math.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/mesh/box.h"
 #include "core/solid/independent_axes.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+
 #include "core/mesh/mesh.h"
 #include "core/spatial/axis_rays.h"
 
@@ -12,11 +14,19 @@ namespace affskel::core {
 class SolidMembership {
  public:
   /// @param mesh closed, outward-oriented.
-  explicit SolidMembership(const Mesh& mesh);
+  explicit SolidMembership(const Mesh& mesh) : rays_(mesh) {}
 
   /// Whether the surface winds round q at least once, or does so round one of the eight points at
   /// +-`tolerance` from q along each axis: a sample point on the surface belongs to the solid.
-  bool contains(const Vec3& q, double tolerance = 0) const;
+  bool contains(const Vec3& q, double tolerance = 0) const {
+    if (winding_number(q) > 0) return true;
+    if (!(tolerance > 0)) return false;
+    for (const double x : {-tolerance, tolerance})
+      for (const double y : {-tolerance, tolerance})
+        for (const double z : {-tolerance, tolerance})
+          if (winding_number(q + Vec3{x, y, z}) > 0) return true;
+    return false;
+  }
 
  private:
   int winding_number(const Vec3& q) const { return rays_.shoot(q, 0, true).winding; }

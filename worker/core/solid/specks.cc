@@ -22,10 +22,6 @@ bool counts_in(const Box& box, double volume) {
   return volume > std::ldexp(kMinScaledVolume, 3 * exponent);
 }
 
-bool is_larger(const SolidSize& a, const SolidSize& b) {
-  return a.volume > b.volume;
-}
-
 }  // namespace
 
 std::vector<SolidSize> solid_sizes(const Solid& solid) {
@@ -59,7 +55,7 @@ std::vector<std::uint8_t> find_specks(const Solid& solid, const std::vector<doub
   if (std::all_of(volumes.begin(), volumes.end(), large)) return specks;
 
   const std::vector<SolidSize> sizes = solid_sizes(solid);
-  const SolidSize& largest = *std::min_element(sizes.begin(), sizes.end(), is_larger);
+  const SolidSize& largest = *std::ranges::max_element(sizes, {}, &SolidSize::volume);
   Box rest;
   for (std::size_t s = 0; s < sizes.size(); ++s) {
     if (large(volumes[s])) rest.include(sizes[s].box);

@@ -173,7 +173,7 @@ std::vector<Vec3> places_on(const Mesh& mesh) {
   for (const Vec3& p : mesh.points)
     if (!(std::fabs(p.x) < kLargest && std::fabs(p.y) < kLargest && std::fabs(p.z) < kLargest)) return {};
   try {
-    return surface_samples(mesh, {kSamples});
+    return surface_samples(mesh, kSamples);
   } catch (const CoreError&) {
     return {};
   }
@@ -191,15 +191,15 @@ Vec3 Stance::right() const {
   return cross(up.vector(), front.vector());
 }
 
-Stance find_stance(const Mesh& mesh, const StanceOptions& options) {
+Stance find_stance(const Mesh& mesh, std::optional<AxisDirection> up) {
   const std::vector<Vec3> places = places_on(mesh);
   if (places.empty()) {
-    const AxisDirection up = options.up.value_or(AxisDirection{2, false});
-    return {up, usual_front(up)};
+    up = up.value_or(AxisDirection{2, false});
+    return {*up, usual_front(*up)};
   }
   const Shape shape(mesh, places);
-  const AxisDirection up = options.up.value_or(shape.up());
-  return {up, shape.front(up)};
+  up = up.value_or(shape.up());
+  return {*up, shape.front(*up)};
 }
 
 }  // namespace affskel::core

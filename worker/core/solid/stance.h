@@ -25,10 +25,6 @@ struct Stance {
   friend bool operator==(const Stance&, const Stance&) = default;
 };
 
-struct StanceOptions {
-  std::optional<AxisDirection> up;  ///< what is up, where it is known
-};
-
 /// How a solid stands, as its shape tells.  No theorem, but what bodies, animals and busts have in common:
 /// - what a quarter turn about z or y maps to itself stands on that axis, as bowls and gears do; flat parts lie on z or,
 ///   if thin along another axis, stand and face along it, as letters do that are read so.  Of all others:
@@ -38,7 +34,8 @@ struct StanceOptions {
 /// - the front is where the head is, if it lies well off the middle (an animal's), else where the feet point.
 /// What the shape does not tell is usual: z up and -y in front, with y up +z, with x up +z.
 /// Depends on the surface alone, not on its triangles or their sense, but for rounding.
+/// @param up where it is known.
 /// @param mesh of one point or more.  Without area, or with coordinates that overflow: the usual.
-Stance find_stance(const Mesh& mesh, const StanceOptions& options = {});
+Stance find_stance(const Mesh& mesh, std::optional<AxisDirection> up = {});
 
 }  // namespace affskel::core

@@ -37,21 +37,21 @@ double curve_length(std::span<const Vec3> points, std::span<const Segment> segme
 }
 
 std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Segment> segments,
-                                const SurfaceSamplesOptions& options) {
+                                std::size_t count) {
   const double total = curve_length(points, segments);
   if (!(total > 0) || !std::isfinite(total)) {
     throw CoreError(CoreError::Code::kBadInput, "the curves have no length to take points from");
   }
-  const double per_length = static_cast<double>(options.count) / total;
+  const double per_length = static_cast<double>(count) / total;
   std::vector<Vec3> samples;
-  samples.reserve(options.count);
+  samples.reserve(count);
   double swept = 0;
   for (const auto& [a, b] : segments) {
     const Vec3 along = points[b] - points[a];
     const double length = norm(along), begin = swept;
     swept += length;
     // Sample i lies where i and a half of the shares are swept.
-    while (samples.size() < options.count) {
+    while (samples.size() < count) {
       const double place = (static_cast<double>(samples.size()) + 0.5) / per_length;
       if (place > swept) break;
       samples.push_back(points[a] + std::min(1.0, (place - begin) / length) * along);
@@ -66,19 +66,19 @@ double surface_area(const Mesh& mesh) {
   return area;
 }
 
-std::vector<Vec3> surface_samples(const Mesh& mesh, const SurfaceSamplesOptions& options) {
+std::vector<Vec3> surface_samples(const Mesh& mesh, std::size_t count) {
   const double total = surface_area(mesh);
   if (!(total > 0) || !std::isfinite(total)) {
     throw CoreError(CoreError::Code::kBadInput, "the surface has no area to take points from");
   }
-  const double per_area = static_cast<double>(options.count) / total;
+  const double per_area = static_cast<double>(count) / total;
   std::vector<Vec3> points;
-  points.reserve(options.count);
+  points.reserve(count);
   double swept = 0;
   for (const Triangle& t : mesh.triangles) {
     swept += area_of(mesh, t);
     // Point i stands for the areas from i to i + 1 and lies where half of that is swept.
-    while (points.size() < options.count && static_cast<double>(points.size()) + 0.5 <= swept * per_area) {
+    while (points.size() < count && static_cast<double>(points.size()) + 0.5 <= swept * per_area) {
       points.push_back(point_in(mesh, t, static_cast<double>(points.size())));
     }
   }

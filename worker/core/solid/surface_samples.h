@@ -8,21 +8,17 @@
 
 namespace affskel::core {
 
-struct SurfaceSamplesOptions {
-  std::size_t count = 50000;  ///< points in all; > 0
-};
-
 /// Points spread evenly over the triangles: every triangle gets its share of the area, to one point; within a
 /// triangle they follow the R2 sequence (Roberts 2018: two-dimensional golden ratio), folded over the
 /// diagonal.  No randomness; only + - * / and sqrt.  A triangle's points lie on it to rounding.
+/// @param count points in all, > 0.
 /// @throws CoreError kBadInput when no triangle has an area.
-std::vector<Vec3> surface_samples(const Mesh& mesh, const SurfaceSamplesOptions& options = {});
+std::vector<Vec3> surface_samples(const Mesh& mesh, std::size_t count = 50000);
 
 /// Points spread evenly over curves: every segment gets its share of the length, to one point.
-/// @param options as for surfaces.
 /// @throws CoreError kBadInput when no segment has a length.
 std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Segment> segments,
-                                const SurfaceSamplesOptions& options);
+                                std::size_t count);
 
 /// Length of all segments, mesh units.
 double curve_length(std::span<const Vec3> points, std::span<const Segment> segments);

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
-
-#include "core/base/parallel.h"
 
 namespace affskel::core {
 
@@ -21,26 +20,16 @@ bool WayQuery::meets(const Box& box) const {
   return !(begin > end);
 }
 
-BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)), items_(boxes_.size()) {
-  std::iota(items_.begin(), items_.end(), 0u);
-  const auto count = static_cast<std::uint32_t>(items_.size());
-  if (count == 0) return;
-  nodes_.resize(halving_nodes(count, kLeafItems));
-  build(0, 0, count, threads);
-}
-
-void BoxTree::build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads) {
-  Box box = boxes_[items_[first]];
-  std::uint32_t max_index = items_[first];
-  for (std::uint32_t i = first + 1; i < first + count; ++i) {
-    box.include(boxes_[items_[i]]);
-    max_index = std::max(max_index, items_[i]);
-  }
-  nodes_[index] = {box, first, count, 0, max_index};
-  if (count <= kLeafItems) return;
-
-  const auto centre = [&](std::uint32_t i) { return 0.5 * boxes_[i].low + 0.5 * boxes_[i].high; };
-  halve_node(nodes_, index, items_, threads, centre, [this](auto... half) { build(half...); });
+BoxTree::BoxTree(std::vector<Box> boxes, unsigned threads) : boxes_(std::move(boxes)) {
+  std::vector<std::uint32_t> items(boxes_.size());
+  std::iota(items.begin(), items.end(), 0U);
+  const auto box_of = [this](std::span<const std::uint32_t> some) {
+    Box box = boxes_[some[0]];
+    for (const std::uint32_t i : some.subspan(1)) box.include(boxes_[i]);
+    return box;
+  };
+  const auto centre = [this](std::uint32_t i) { return 0.5 * boxes_[i].low + 0.5 * boxes_[i].high; };
+  tree_ = HalvedTree<Box>(std::move(items), threads, box_of, centre);
 }
 
 }  // namespace affskel::core

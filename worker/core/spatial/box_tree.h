@@ -38,26 +38,16 @@ class BoxTree {
   /// The same for the indices > `above`.
   template <class Query = Box, class Visit>
   void visit_above(const Query& query, std::int64_t above, Visit visit) const {
-    walk_halved_nodes(
-        nodes_, [&](const Node& node) { return node.max_index > above && query.meets(node.box); },
-        [&](std::uint32_t position) {
-          const std::uint32_t item = items_[position];
-          if (item > above && query.meets(boxes_[item])) visit(item);
+    tree_.visit_above(
+        above, [&](const Box& box) { return query.meets(box); },
+        [&](std::uint32_t item) {
+          if (query.meets(boxes_[item])) visit(item);
         });
   }
 
  private:
-  struct Node {
-    Box box;
-    std::uint32_t first, count, right;
-    std::uint32_t max_index;  // of the indices below
-  };
-
-  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
-
   std::vector<Box> boxes_;
-  std::vector<std::uint32_t> items_;
-  std::vector<Node> nodes_;
+  HalvedTree<Box> tree_;
 };
 
 }  // namespace affskel::core

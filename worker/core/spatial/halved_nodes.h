@@ -11,34 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/mesh/box.h"
 
-// What the balanced trees of boxes have in common.  Their nodes lie in one array, the root first; a node
-// covers the items [first, first + count), its left half is the next node, its right half the node `right`, 0
-// for a leaf.  See halving_nodes for their number.
-
 namespace affskel::core {
-
-inline constexpr std::uint32_t kLeafItems = 4;  ///< at most, of a leaf
-
-/// Calls `visit(position)` for the items of all leaves that are reached, by their position in the order of
-/// the leaves.  A node is reached when `enter(node)` is true for it and for all nodes above it.
-template <class Node, class Enter, class Visit>
-void walk_halved_nodes(const std::vector<Node>& nodes, Enter enter, Visit visit) {
-  if (nodes.empty()) return;
-  std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
-  std::size_t depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t index = stack[--depth];
-    const Node& node = nodes[index];
-    if (!enter(node)) continue;
-    if (node.right != 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-      continue;
-    }
-    for (std::uint32_t at = node.first; at < node.first + node.count; ++at) visit(at);
-  }
-}
 
 /// Puts `left` of some items in front of the others, by their centres along the axis in which these are spread most, of
 /// equal ones by their numbers.  The centres', not the boxes': the faces of boxes within boxes all have their centres in
@@ -55,18 +28,75 @@ void halve_items(std::span<std::uint32_t> items, std::size_t left, const Centre&
                    });
 }
 
-/// Splits the items of nodes[index], whose members but `right` are set, by halve_items(), and calls
-/// `build(index, first, count, threads)` for both halves, at the same time when `threads` > 1.
-template <class Node, class Centre, class Build>
-void halve_node(std::vector<Node>& nodes, std::uint32_t index, std::span<std::uint32_t> items,
-                unsigned threads, const Centre& centre, Build build) {
-  const std::uint32_t first = nodes[index].first, count = nodes[index].count, left = count / 2;
-  halve_items(items.subspan(first, count), left, centre);
-  const std::uint32_t right = index + 1 + halving_nodes(left, kLeafItems);
-  nodes[index].right = right;
-  parallel_halves(
-      threads, [&](unsigned share) { build(index + 1, first, left, share); },
-      [&](unsigned share) { build(right, first + left, count - left, share); });
-}
+/// A balanced tree over numbered items, for trees of boxes.  Immutable after construction; queries from several threads
+/// are safe.
+template <class Bound>
+class HalvedTree {
+ public:
+  HalvedTree() = default;
+
+  /// O(N log N), on up to `threads` threads.
+  /// @param bound_of bound_of(items): what some items lie in, a span of their numbers, one at least.
+  /// @param centre centre(item): a Vec3, see halve_items().
+  template <class BoundOf, class Centre>
+  HalvedTree(std::vector<std::uint32_t> items, unsigned threads, const BoundOf& bound_of,
+             const Centre& centre)
+      : items_(std::move(items)) {
+    const auto count = static_cast<std::uint32_t>(items_.size());
+    if (count == 0) return;
+    nodes_.resize(halving_nodes(count, kLeafItems));
+    build(0, 0, count, threads, bound_of, centre);
+  }
+
+  /// Calls visit(item) for the items > `above` of all leaves that are reached, in an order of the tree's own.  A node is
+  /// reached when enter(bound) is true for it and for all nodes above it.
+  template <class Enter, class Visit>
+  void visit_above(std::int64_t above, const Enter& enter, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, 64> stack;  // the tree is balanced: at most 32 levels
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t index = stack[--depth];
+      const Node& node = nodes_[index];
+      if (!(node.max_item > above && enter(node.bound))) continue;
+      if (node.right != 0) {
+        stack[depth++] = node.right;
+        stack[depth++] = index + 1;
+        continue;
+      }
+      for (std::uint32_t at = node.first; at < node.first + node.count; ++at)
+        if (items_[at] > above) visit(items_[at]);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kLeafItems = 4;  // at most, of a leaf
+
+  // Of items_[first, first + count).  Its left half is the next node.
+  struct Node {
+    Bound bound;
+    std::uint32_t first, count;
+    std::uint32_t right;     // half; 0 of a leaf
+    std::uint32_t max_item;  // the largest number
+  };
+
+  template <class BoundOf, class Centre>
+  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads,
+             const BoundOf& bound_of, const Centre& centre) {
+    const std::span items(items_.data() + first, count);
+    nodes_[index] = {bound_of(items), first, count, 0, *std::max_element(items.begin(), items.end())};
+    if (count <= kLeafItems) return;
+    const std::uint32_t left = count / 2, right = index + 1 + halving_nodes(left, kLeafItems);
+    halve_items(items, left, centre);
+    nodes_[index].right = right;
+    parallel_halves(
+        threads, [&](unsigned share) { build(index + 1, first, left, share, bound_of, centre); },
+        [&](unsigned share) { build(right, first + left, count - left, share, bound_of, centre); });
+  }
+
+  std::vector<std::uint32_t> items_;
+  std::vector<Node> nodes_;  // the root first
+};
 
 }  // namespace affskel::core

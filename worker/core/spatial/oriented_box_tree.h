@@ -22,30 +22,16 @@ class OrientedBoxTree {
   /// @param corners, box of triangle i, a member or not.
   template <class Visit>
   void visit_above(std::uint32_t i, const Corners& corners, const OrientedBox& box, Visit visit) const {
-    walk_halved_nodes(
-        nodes_,
-        [&](const Node& node) {
-          return node.max_index > i && !surely_apart(node.box, corners) && !surely_apart(box, node.box);
-        },
-        [&](std::uint32_t position) {
-          const std::uint32_t j = members_[position];
-          if (j > i && !surely_apart(box, triangles_.corners(j))) visit(j);
+    tree_.visit_above(
+        i, [&](const OrientedBox& node) { return !surely_apart(node, corners) && !surely_apart(box, node); },
+        [&](std::uint32_t j) {
+          if (!surely_apart(box, triangles_.corners(j))) visit(j);
         });
   }
 
  private:
-  struct Node {
-    OrientedBox box;
-    std::uint32_t first, count, right;
-    std::uint32_t max_index;  // of the members below
-  };
-
-  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count, unsigned threads);
-  OrientedBox box_round(std::uint32_t first, std::uint32_t count) const;
-
   UnitTriangles triangles_;
-  std::vector<std::uint32_t> members_;
-  std::vector<Node> nodes_;
+  HalvedTree<OrientedBox> tree_;
 };
 
 }  // namespace affskel::core

@@ -221,7 +221,7 @@ class Marcher {
     const auto [name, is_new] = layer(at[0]).rims.try_emplace(key, 0U);
     if (is_new) {
       const Vec3 gap = 0.5 * (mesh_.points[a] + mesh_.points[b]);
-      name->second = add_vertex(gap + 0.25 * (position(place(other)) - gap));
+      name->second = add_vertex(gap + 0.25 * (vector_of(place(other)) - gap));
     }
     return name->second;
   }
@@ -246,7 +246,7 @@ class Marcher {
     for (double* t : {&found.share, &found.min_share, &found.max_share})
       *t = std::clamp(*t, kLevelMargin, max_share);
     const Indices from = place(p), to = place(q);
-    const Vec3 start = position(from), along = position(to) - start;
+    const Vec3 start = vector_of(from), along = vector_of(to) - start;
     const std::uint32_t vertex = add_vertex(start + found.share * along);
     if (found.min_share < found.max_share) {
       loose_.push_back({vertex, start, along, found.min_share, found.max_share, found.share});
@@ -256,7 +256,7 @@ class Marcher {
 
   LevelCrossing crossing(unsigned p, unsigned q, const LatticeCut* cut) const {
     const std::uint32_t x = rank(p), y = rank(q);
-    const Vec3 delta = field_.spacing * (position(place(q)) - position(place(p)));
+    const Vec3 delta = field_.spacing * (vector_of(place(q)) - vector_of(place(p)));
     const Vec3& g = field_.gradient[x];
     const EdgeValue here{field_.erosion[x], dot(g, delta)};
     if (y == LayerIndex::kOutside || has_gap(p, q)) {
@@ -274,10 +274,6 @@ class Marcher {
   std::uint32_t rank(unsigned corner) const {
     const Indices at = place(corner);
     return ranks_.at(at[0], at[1], at[2]);
-  }
-
-  static Vec3 position(const Indices& at) {
-    return {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
   }
 
   const FrameField& field_;
@@ -342,9 +338,7 @@ ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const F
   ErodedSurface result;
   result.mesh = Marcher(solid, lattice, field, options.level).run(options.context);
   throw_if_stopped(options.context);
-  if (options.shortest_edge > 0) {
-    result.mesh = tidy_mesh(result.mesh, {.shortest_edge = options.shortest_edge});
-  }
+  if (options.shortest_edge > 0) result.mesh = tidy_mesh(result.mesh, options.shortest_edge);
   result.values = field_between(lattice, field, result.mesh.points);
   place_mesh(solid, lattice, result.mesh);
   result.volume = enclosed_volume(result.mesh);

@@ -16,7 +16,7 @@ constexpr std::uint64_t kMaxElements = std::uint64_t{1} << 28;
 
 class OffReader {
  public:
-  OffReader(std::string_view bytes, const ReadOffOptions& options) : rows_(bytes), stop_(options.context) {}
+  OffReader(std::string_view bytes, ExecutionContext* context) : rows_(bytes), stop_(context) {}
 
   OffMesh run() {
     read_header();
@@ -234,8 +234,8 @@ void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64
   off.uneven_line = line;
 }
 
-OffMesh read_off(std::string_view bytes, const ReadOffOptions& options) {
-  return OffReader(bytes, options).run();
+OffMesh read_off(std::string_view bytes, ExecutionContext* context) {
+  return OffReader(bytes, context).run();
 }
 
 std::string write_off(const Mesh& mesh) {

@@ -11,10 +11,6 @@
 
 namespace affskel::core {
 
-struct ReadOffOptions {
-  ExecutionContext* context = nullptr;  ///< asked whether to stop
-};
-
 /// Rows of a file that were passed over: all that begin with the same word.
 struct PassedOver {
   std::string word;
@@ -47,7 +43,7 @@ void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64
 /// @throws CoreError kBadInput with line and cause for everything else (binary, nOFF, decimal
 ///   commas, NUL bytes, line ends of two kinds, trailing rows, indices out of range or not integral, NaN, infinity);
 ///   kLimit for counts above 2^28, before anything is allocated; kCancelled when the context asks to stop.
-OffMesh read_off(std::string_view bytes, const ReadOffOptions& options = {});
+OffMesh read_off(std::string_view bytes, ExecutionContext* context = nullptr);
 
 /// Text of an OFF file with the shortest decimals that read back exactly.
 std::string write_off(const Mesh& mesh);

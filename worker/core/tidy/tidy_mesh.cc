@@ -29,13 +29,15 @@ struct ShortEdge {
 constexpr double kSliver = 0.1;
 // Flat triangles below this quality are flipped.
 constexpr double kFlat = 0.3;
+// Of collapses and flips; a lattice's mesh is done after about ten.
+constexpr int kMaxRounds = 32;
 
 class Tidier {
  public:
   Tidier(const Mesh& mesh, double length) : mesh_(mesh), limit_(length * length) {}
 
-  Mesh run(int max_rounds) {
-    for (int round = 0; round < max_rounds && change(); ++round) {
+  Mesh run() {
+    for (int round = 0; round < kMaxRounds && change(); ++round) {
     }
     drop_unused_points(mesh_);
     return std::move(mesh_);
@@ -43,7 +45,7 @@ class Tidier {
 
  private:
   bool change() {
-    stars_ = triangles_of_vertices(mesh_.points.size(), mesh_.triangles);
+    stars_ = holders(mesh_.points.size(), mesh_.triangles);
     claimed_.assign(mesh_.points.size(), 0);
     bool any = false;
     for (const ShortEdge& e : short_edges()) {
@@ -213,8 +215,8 @@ class Tidier {
 
 }  // namespace
 
-Mesh tidy_mesh(const Mesh& mesh, const TidyOptions& options) {
-  return Tidier(mesh, options.shortest_edge).run(options.max_rounds);
+Mesh tidy_mesh(const Mesh& mesh, double shortest_edge) {
+  return Tidier(mesh, shortest_edge).run();
 }
 
 }  // namespace affskel::core

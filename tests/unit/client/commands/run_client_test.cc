@@ -296,7 +296,7 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
 
 TEST_F(ClientTest, CloudsOfPointsAreWrappedWhenAsked) {
   std::string text;
-  for (const core::Vec3& p : core::surface_samples(core::make_sphere(10, 1280), {2000}))
+  for (const core::Vec3& p : core::surface_samples(core::make_sphere(10, 1280), 2000))
     text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   tests::write_file(dir_ / "ball.xyz", text);
   const Outcome refused = run({"submit", dir_ / "ball.xyz"});

@@ -42,7 +42,7 @@ FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string&
   std::vector<FieldValue> values;
   for (std::uint32_t p = 0; p < lattice.points; ++p) values.push_back(erosion.field().value(p));
   if (refined) {
-    const auto least = refine(PieceInput(solid), lattice, directions, erosion.field(), {}, context);
+    const auto least = refine(PieceInput(solid), lattice, directions, erosion.field(), 1, context);
     directions.assign(least.size(), {});
     for (std::uint32_t p = 0; p < lattice.points; ++p) {
       directions[p] = least[p].normal;

@@ -19,8 +19,8 @@
 #include "core/quality/similarity.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
+#include "core/shocks/shock_operator.h"
 #include "core/shocks/skeleton.h"
-#include "core/shocks/zucker_hummel.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/solid_frame.h"
 
@@ -155,9 +155,9 @@ Skeletons skeletons(const Mesh& mesh, FrameKind frame) {
   const SamplePlaces places(solid, lattice);
   Skeletons result;
   std::vector<std::uint32_t> ranks;
-  const auto divergence =
-      zucker_hummel_divergence(lattice, frame_directions(lattice, directions), field.direction);
-  for (const SkeletonPoint& kept : skeleton_points(divergence, {})) ranks.push_back(kept.point);
+  const auto divergence = core::divergence(ShockOperator::kZuckerHummel, lattice,
+                                           frame_directions(lattice, directions), field.direction);
+  for (const SkeletonPoint& kept : skeleton_points(divergence)) ranks.push_back(kept.point);
   for (const auto& [i, j, k] : lattice_places(lattice, ranks)) {
     result.zucker_hummel.push_back(places.at(i, j, k));
   }

@@ -39,7 +39,7 @@ Written written(bool points, std::uint64_t piece_places, const LatticeGrid& grid
   const tests::TemporaryDirectory dir;
   base::AtomicFile out(dir / "grid");
   const FileFacts facts = {{"job", "0123"}, {"v0", "2.5", 2.5}, {"content", "<a> & \"b\""}};
-  const auto file = make_vtk_xml_grid(out, grid, points, kArrays, facts, {piece_places});
+  const auto file = make_vtk_xml_grid(out, grid, points, kArrays, facts, piece_places);
   EXPECT_EQ(file->overlap(), 1u);
   const std::uint32_t step = file->planes_at_a_time();
   std::uint32_t begin = 0;

@@ -49,7 +49,7 @@ struct Refined {
     ErosionField field(lattice.points, false);
     for (std::uint32_t p = 0; p < lattice.points; ++p) field.offer(p, scaled_seed(p));
     ExecutionContext context;
-    values = refine(PieceInput(solid), lattice, seeds.directions, field, {.threads = threads}, context);
+    values = refine(PieceInput(solid), lattice, seeds.directions, field, threads, context);
   }
 
   FieldValue scaled_seed(std::uint32_t p) const {
@@ -336,7 +336,7 @@ TEST(RefineTest, StopsWhenAsked) {
   const DirectionSet set = make_directions(solid, "triangles");
   ErosionField seeds(lattice.points, false);
   StoppingContext context(0);
-  EXPECT_THROW(refine(PieceInput(solid), lattice, set, seeds, {}, context), CoreError);
+  EXPECT_THROW(refine(PieceInput(solid), lattice, set, seeds, 1, context), CoreError);
 }
 
 }  // namespace

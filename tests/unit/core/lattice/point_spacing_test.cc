@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/cube_root.h"
 #include "core/base/error.h"
+#include "core/base/plain_math.h"
 #include "core/mesh/map_mesh.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

@@ -85,7 +85,7 @@ TEST(Neighbours, AndTrianglesAreThoseOfEveryVertex) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const std::vector<Triangle> triangles = random_triangles(seed);
     const Adjacency near = neighbours(kPoints, triangles);
-    const Groups<std::uint32_t> fans = triangles_of_vertices(kPoints, triangles);
+    const Groups<std::uint32_t> fans = holders(kPoints, triangles);
     ASSERT_EQ(near.size(), kPoints);
     ASSERT_EQ(fans.size(), kPoints);
     for (std::uint32_t v = 0; v < kPoints; ++v) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/mesh/icosahedron.h"
+#include "core/mesh/geodesic_sphere.h"
 #include "core/shapes/shapes.h"
 
 namespace affskel::core {

@@ -17,7 +17,7 @@ namespace {
 TEST(InteriorPointsTest, FillTheSolidEvenly) {
   Mesh box = make_box(3, 2, 1);
   for (Vec3& p : box.points) p = 1000 * p + Vec3{5, 5, 5};
-  const std::vector<Vec3> points = interior_points(make_solid(box), {20000});
+  const std::vector<Vec3> points = interior_points(make_solid(box), 20000);
   ASSERT_EQ(points.size(), 20000u);
   std::size_t eighth = 0;
   for (const Vec3& p : points) {
@@ -30,7 +30,7 @@ TEST(InteriorPointsTest, FillTheSolidEvenly) {
 TEST(InteriorPointsTest, ChanceLevelOfAPointIsTheVolumeRoundIt) {
   // Inner points of a cube within r of its centre: the ball's share of the volume.
   const std::vector<Vec3> centre = {{1, 1, 1}};
-  const DistanceCurve chance(interior_points(make_solid(make_box(2, 2, 2)), {30000}), centre);
+  const DistanceCurve chance(interior_points(make_solid(make_box(2, 2, 2)), 30000), centre);
   for (const double r : {0.3, 0.6, 0.9}) {
     EXPECT_NEAR(chance.share_within(r), 4 * std::numbers::pi / 3 * r * r * r / 8, 0.005);
   }
@@ -45,7 +45,7 @@ TEST(InteriorPointsTest, ThinSolidsGetTheirPointsToo) {
       AffineMap turn;
       if (turned) turn.rows = {{{0.6, -0.8, 0}, {0.64, 0.48, -0.6}, {0.48, 0.36, 0.8}}};
       const Mesh mesh = map_mesh(turn, make_box(size.x, size.y, size.z));
-      const std::vector<Vec3> points = interior_points(make_solid(mesh), {8000});
+      const std::vector<Vec3> points = interior_points(make_solid(mesh), 8000);
       ASSERT_EQ(points.size(), 8000u);
       const AffineMap back = inverse(turn);
       std::size_t eighth = 0;
@@ -71,7 +71,7 @@ TEST(InteriorPointsTest, LieInsideAlsoRoundHolesAndCavities) {
   shell.points.insert(shell.points.end(), inner.points.begin(), inner.points.end());
   for (const Mesh& mesh : {make_torus(3, 0.01, 256), shell}) {
     const SolidMembership membership(mesh);
-    const std::vector<Vec3> points = interior_points(make_solid(mesh), {4000});
+    const std::vector<Vec3> points = interior_points(make_solid(mesh), 4000);
     ASSERT_EQ(points.size(), 4000u);
     std::size_t inside = 0;
     for (const Vec3& p : points) inside += membership.contains(p, 1e-12) ? 1 : 0;

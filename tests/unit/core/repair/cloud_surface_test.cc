@@ -161,8 +161,7 @@ TEST(CloudSurface, IsTheSameEachTime) {
 
 TEST(CloudSurface, StopsWhenAsked) {
   const std::vector<Vec3> points = scanned(make_sphere(10, 1280), 1000, 0);
-  expect_stops_wherever_it_is_asked(3000,
-                                    [&](ExecutionContext* context) { cloud_surface(points, {context}); });
+  expect_stops_wherever_it_is_asked(3000, [&](ExecutionContext* context) { cloud_surface(points, context); });
 }
 
 }  // namespace

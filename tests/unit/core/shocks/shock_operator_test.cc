@@ -128,8 +128,11 @@ TEST(NextThreshold, ContinuesThePublishedLadder) {
 TEST(Divergence, IsTheOperatorsOwn) {
   NormalBlock block({4, 4, 4});
   block.fill([](const Indices& p) { return Vec3{p[0] * 0.1, p[1] * p[1] * 0.01, p[2] * 0.2}; });
-  EXPECT_EQ(divergence(ShockOperator::kZuckerHummel, block.lattice, block.normals, block.optimal),
-            zucker_hummel_divergence(block.lattice, block.normals, block.optimal));
+  EXPECT_EQ(
+      divergence(ShockOperator::kZuckerHummel, block.lattice, block.normals, block.optimal),
+      at_every_point(block.lattice, block.normals, block.optimal, nullptr, [&](const Neighbourhood& normals) {
+        return zucker_hummel_divergence(normals, block.lattice.spacing);
+      }));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/cube_root.h"
 #include "core/base/error.h"
+#include "core/base/plain_math.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"

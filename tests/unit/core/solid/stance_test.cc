@@ -101,7 +101,7 @@ TEST(Stance, FrontIsFoundWhereUpIsKnown) {
     for (std::size_t front = 0; front < 3; ++front) {
       if (front == up) continue;
       const Stance stance{{up, up == 1}, {front, up == 2}};
-      EXPECT_EQ(text(find_stance(standing(body, stance), {.up = stance.up})), text(stance));
+      EXPECT_EQ(text(find_stance(standing(body, stance), stance.up)), text(stance));
     }
   }
 }
@@ -113,7 +113,7 @@ TEST(Stance, IsUsualWhereTheShapeDoesNotTell) {
   EXPECT_EQ(find_stance(make_box(3, 1, 1)), usual);
   EXPECT_EQ(find_stance(make_box(1, 1.2, 1)), usual) << "hardly longer";
   EXPECT_EQ(text(find_stance(make_box(1, 1.3, 1))), "y up, z in front");
-  EXPECT_EQ(text(find_stance(make_box(1, 1, 1), {.up = AxisDirection{0, false}})), "x up, z in front");
+  EXPECT_EQ(text(find_stance(make_box(1, 1, 1), AxisDirection{0, false})), "x up, z in front");
 }
 
 // What is turned on a lathe about z: a bowl, a spherical shell cut in half, would roll on its side.

@@ -180,11 +180,7 @@ TEST(WriteOff, ReadsBackTheSameBits) {
 
 TEST(ReadOff, StopsWhereverItIsAsked) {
   const std::string text = write_off(make_sphere(1, 5120));
-  ReadOffOptions options;
-  expect_stops_wherever_it_is_asked(5, [&](ExecutionContext* context) {
-    options.context = context;
-    read_off(text, options);
-  });
+  expect_stops_wherever_it_is_asked(5, [&](ExecutionContext* context) { read_off(text, context); });
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(TidyMeshTest, RemovesTheNeedlesAndCapsOfABall) {
   const ImplicitFunction ball = [](const Vec3& p) { return norm(p - Vec3{0.03, 0.01, 0.02}) - 1; };
   const Mesh mesh = mesh_zero_set(ball, {.low = {-1.5, -1.5, -1.5}, .high = {1.5, 1.5, 1.5}, .spacing = 0.1});
   ASSERT_LT(shape_of(mesh).shortest_edge, 0.01);
-  const Mesh tidy = tidy_mesh(mesh, {.shortest_edge = 0.04});
+  const Mesh tidy = tidy_mesh(mesh, 0.04);
   expect_solid_boundary(tidy);
   expect_points_of(tidy, mesh);
   EXPECT_GE(shape_of(tidy).shortest_edge, 0.04);
@@ -55,16 +55,16 @@ TEST(TidyMeshTest, RemovesTheNeedlesAndCapsOfABall) {
 
 TEST(TidyMeshTest, KeepsTheGenusOfATorusTooThinForItsEdges) {
   const Mesh mesh = make_torus(2, 0.1, 1200);
-  const Mesh tidy = tidy_mesh(mesh, {.shortest_edge = 0.5});
+  const Mesh tidy = tidy_mesh(mesh, 0.5);
   expect_solid_boundary(tidy, 1);
   EXPECT_LT(tidy.triangles.size(), mesh.triangles.size());
 }
 
 TEST(TidyMeshTest, LeavesATetrahedronAndEveryPieceAlone) {
   const Mesh tetrahedron = make_tetrahedron(1);
-  EXPECT_EQ(tidy_mesh(tetrahedron, {.shortest_edge = 2}).triangles, tetrahedron.triangles);
+  EXPECT_EQ(tidy_mesh(tetrahedron, 2).triangles, tetrahedron.triangles);
   const Mesh two = joined(make_sphere(1, 80), moved(make_sphere(1, 80), {3, 0, 0}));
-  const MeshFacts facts = mesh_facts(tidy_mesh(two, {.shortest_edge = 10}));
+  const MeshFacts facts = mesh_facts(tidy_mesh(two, 10));
   EXPECT_EQ(facts.components, 2u);
   EXPECT_EQ(facts.euler, 4);
   EXPECT_TRUE(facts.closed && facts.oriented && facts.vertices_manifold);
@@ -86,7 +86,7 @@ TEST(TidyMeshTest, FlipsACap) {
   mesh.triangles.push_back({cut[1], cut[2], v});
   mesh.triangles.push_back({cut[2], cut[0], v});
   ASSERT_LT(shape_of(mesh).least_angle, 1);
-  const Mesh tidy = tidy_mesh(mesh, {.shortest_edge = 0.01});
+  const Mesh tidy = tidy_mesh(mesh, 0.01);
   expect_solid_boundary(tidy);
   EXPECT_EQ(tidy.points.size(), mesh.points.size());
   EXPECT_NEAR(mesh_facts(tidy).volume, 1, 1e-12);

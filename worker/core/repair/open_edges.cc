@@ -1,18 +1,47 @@
-#include "core/repair/t_junctions.h"
+#include "core/repair/open_edges.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
-#include "core/repair/near_points.h"
 #include "core/spatial/box_tree.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr double kOfEdge = 1e-3;
-constexpr int kEdgesOfATriangle = 3;  // it may have junctions on each
+constexpr double kNearOfDiagonal = 1e-6;  // of the box: what lies so near may be parted by rounding
+constexpr double kNearOfEdge = 1e-2;      // of an end of open edges, from another
+constexpr double kJunctionOfEdge = 1e-3;  // of a T-junction, from the edge
+constexpr int kEdgesOfATriangle = 3;      // it may have junctions on each
+
+// An end of open edges, and how far from it another may lie.
+struct OpenEnd {
+  std::uint32_t point;
+  double tolerance;
+};
+
+// By x.
+std::vector<OpenEnd> open_ends(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  const double none = std::numeric_limits<double>::infinity();
+  std::vector<double> shortest(points.size(), none);  // open edge at a point
+  Edges(points.size(), triangles).for_each([&](std::uint32_t low, std::uint32_t high, auto sides) {
+    if (sides.size() != 1) return;
+    const double length = norm(points[high] - points[low]);
+    for (const std::uint32_t end : {low, high}) shortest[end] = std::min(shortest[end], length);
+  });
+  const double most = kNearOfDiagonal * box_of(points).diagonal();
+  std::vector<OpenEnd> ends;
+  for (std::uint32_t p = 0; p < points.size(); ++p)
+    if (shortest[p] < none) ends.push_back({p, std::min(most, kNearOfEdge * shortest[p])});
+  std::sort(ends.begin(), ends.end(), [&](const OpenEnd& a, const OpenEnd& b) {
+    const double of_a = points[a.point].x, of_b = points[b.point].x;
+    return of_a != of_b ? of_a < of_b : a.point < b.point;
+  });
+  return ends;
+}
 
 struct OpenEdge {
   std::uint32_t triangle, corner;  // from this corner to the next
@@ -59,7 +88,7 @@ class Junctions {
   // Vertices of the rim on the edge from a to b, in that order.
   std::vector<std::uint32_t> on_edge(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Vec3 from = points_[a], along = points_[b] - from;
-    const double length = norm(along), near = std::min(tolerance_, kOfEdge * length);
+    const double length = norm(along), near = std::min(tolerance_, kJunctionOfEdge * length);
     std::vector<std::pair<double, std::uint32_t>> found;
     tree_.visit(WayQuery{from, along, near}, [&](std::uint32_t r) {
       const std::uint32_t v = rim_[r];
@@ -83,6 +112,24 @@ class Junctions {
 };
 
 }  // namespace
+
+std::uint64_t join_near_points(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
+  const std::vector<OpenEnd> ends = open_ends(points, triangles);
+  DisjointSets same(points.size());
+  std::uint64_t joined = 0;
+  for (std::size_t a = 0; a < ends.size(); ++a) {
+    const Vec3& at = points[ends[a].point];
+    for (std::size_t b = a + 1; b < ends.size() && points[ends[b].point].x - at.x <= ends[a].tolerance; ++b) {
+      if (norm(points[ends[b].point] - at) > std::min(ends[a].tolerance, ends[b].tolerance)) continue;
+      joined += same.unite(ends[a].point, ends[b].point) ? 1 : 0;
+    }
+  }
+  if (joined == 0) return 0;
+  for (Triangle& t : triangles)
+    for (std::uint32_t& corner : t) corner = same.find(corner);
+  std::erase_if(triangles, is_collapsed);
+  return joined;
+}
 
 std::uint64_t split_t_junctions(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
   const double tolerance = kNearOfDiagonal * box_of(points).diagonal();
