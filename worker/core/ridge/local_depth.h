@@ -20,4 +20,11 @@ std::vector<float> local_depth(const Lattice& lattice, const FrameField& field);
 /// @return per sample point.
 std::vector<float> surface_distance(const Lattice& lattice);
 
+/// Whether no place next to a sample point is nearer to the surface than `least` spacings, as far as its
+/// surface_distance() tells: a place is nearer than the point by a spacing at most, the point than half a spacing, and
+/// ways along the three kinds of diagonals are longer than straight ones by 14 % at most.
+constexpr bool is_surely_deep(double radius, double least) {
+  return radius - 1.75 >= 1.14 * least;
+}
+
 }  // namespace affskel::core

@@ -8,6 +8,7 @@
 #include "core/base/require.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
+#include "core/ridge/local_depth.h"
 
 namespace affskel::core {
 namespace {
@@ -56,6 +57,7 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
       radius_(radius),
       surface_(surface),
       smoothed_(smoothed),
+      widest_(1.5 + static_cast<double>(*std::max_element(radius.begin(), radius.end()))),
       constants_(constants),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
@@ -70,8 +72,17 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
   }
 }
 
+double RidgeValues::least_radius(const SheetVertex& vertex) const {
+  return constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
+}
+
 bool RidgeValues::is_deep(const SheetVertex& vertex) const {
-  return (radius_[vertex.point] >= constants_.min_radius && is_deep(vertex, surface_)) ||
+  const auto radius = static_cast<double>(radius_[vertex.point]);
+  const double share = smoothed_ == nullptr ? constants_.min_ball_share : constants_.noisy_ball_share;
+  // No ball in the solid is too large for it: without a search.
+  if (is_surely_deep(radius, std::max(least_radius(vertex), share / constants_.min_ball * widest_)))
+    return true;
+  return (radius >= constants_.min_radius && is_deep(vertex, surface_)) ||
          (smoothed_ != nullptr && is_deep(vertex, *smoothed_));
 }
 
@@ -80,9 +91,7 @@ bool RidgeValues::is_deep(const SheetVertex& vertex) const {
 bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const {
   const Vec3 place = (1 / field_.spacing) * vertex.position, wall = surface.nearest_place(place);
   const double radius = norm(place - wall);
-  if (radius < constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth) ||
-      radius == 0)
-    return false;
+  if (radius < least_radius(vertex) || radius == 0) return false;
   double share = constants_.min_ball_share;
   if (smoothed_ != nullptr) {
     // Of the normals' difference, which is across the ridge, as much as leads to the wall.
@@ -91,7 +100,7 @@ bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surfa
     if (size > 0) share = std::lerp(share, constants_.noisy_ball_share, along * along / (size * size));
   }
   const Vec3 ball = (1 / share) * (place - wall);  // from the wall to its middle
-  return surface.comes_within(constants_.min_ball * norm(ball), wall + ball);
+  return surface.nearest(wall + ball) < constants_.min_ball * norm(ball);
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {

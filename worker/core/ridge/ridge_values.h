@@ -68,6 +68,7 @@ class RidgeValues {
                  std::span<const double> weights, const Vec3& across) const;
 
  private:
+  double least_radius(const SheetVertex& vertex) const;
   bool is_deep(const SheetVertex& vertex) const;
   bool is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const;
 
@@ -76,6 +77,7 @@ class RidgeValues {
   std::span<const float> radius_;
   const DistanceToMesh& surface_;
   const DistanceToMesh* smoothed_;
+  double widest_;  // no ball in the solid is larger, spacings
   RidgeConstants constants_;
   double min_strength_;
   Matrix3 to_mesh_;  // F^-T

@@ -13,6 +13,7 @@
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/patch_senses.h"
+#include "core/ridge/local_depth.h"
 #include "core/ridge/skeleton_cells.h"
 #include "core/solid/solid_membership.h"
 
@@ -28,13 +29,6 @@ constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest 
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
 constexpr double kThin = 2;           // a vertex moves freely about points farther from the surface, spacings
 constexpr int kLinePasses = 30;       // of ways and curves
-
-// Whether no place next to a sample point is nearer to the surface than `least` spacings, as far as its distance by
-// ways over sample points (surface_distance()) tells: a place is nearer than the point by a spacing at most, the point
-// than half a spacing, and ways along the three kinds of diagonals are longer than straight ones by 14 % at most.
-constexpr bool is_surely_deep(double radius, double least) {
-  return radius - 1.75 >= 1.14 * least;
-}
 
 class Placing {
  public:

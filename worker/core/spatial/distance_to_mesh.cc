@@ -57,10 +57,6 @@ double DistanceToMesh::nearest(const Vec3& place) const {
   return norm(nearest_place(place) - place);
 }
 
-bool DistanceToMesh::comes_within(double distance, const Vec3& place) const {
-  return corner_index_.nearest(place) < distance || nearest(place) < distance;
-}
-
 Vec3 DistanceToMesh::nearest_place(const Vec3& place) const {
   const PointIndex::Found corner = corner_index_.find(place);
   double least =

@@ -22,9 +22,6 @@ class DistanceToMesh {
   /// That point.
   Vec3 nearest_place(const Vec3& place) const;
 
-  /// Whether it is nearer than `distance`: in half the time where a corner is.
-  bool comes_within(double distance, const Vec3& place) const;
-
  private:
   const Mesh& mesh_;
   BoxTree tree_;
