@@ -37,7 +37,7 @@ using VertexOfCell =
 /// @param cells of the crossings' edges, see edge_cells().
 /// @param crossings each edge once.
 /// @param vertex_of values of the vertices.
-/// @param context asked at whether to stop.
+/// @param context asked whether to stop; may be null.
 /// @return vertices in the order of their cells; two triangles per crossing, in the order of the crossings,
 ///   which agree on their senses (see agree_on_senses()).
 /// @throws CoreError kCancelled when the context asks to stop.

@@ -32,8 +32,7 @@ struct RidgeCurve {
 /// over one depth, in the weaker of the two directions.
 /// @param values of the lattice; their bounds hold for s_2 and E.
 /// @return one vertex for each cell that a curve passes through, the mean of its points there; in lattice
-/// order
-///   of the curves' ends, then the closed ones.
+///   order of the curves' ends, then the closed ones.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<RidgeCurve> ridge_curves(const Lattice& lattice, const RidgeValues& values,
                                      ExecutionContext* context = nullptr);
