@@ -31,9 +31,9 @@ struct RidgeBasis {
   std::vector<float> radius = {};     ///< per sample point: see surface_distance()
   std::vector<float> thickness = {};  ///< see section_radii(); empty where no surface crosses itself
   std::vector<LimbTip> limbs = {};    ///< of the solid, whatever is anchored
-  std::vector<LimbTip> opened_limbs =
-      {};                               ///< where the lattice has tunnels that the solid lacks: without them
-  std::vector<LatticeLoop> loops = {};  ///< the smallest tunnels, kMaxLoops at most
+  /// Where the lattice has tunnels that the solid lacks: without them.
+  std::vector<LimbTip> opened_limbs = {};
+  std::vector<LatticeLoop> loops = {};             ///< the smallest tunnels, kMaxLoops at most
   std::vector<PointDerivatives> derivatives = {};  ///< see smoothed_derivatives()
 };
 
