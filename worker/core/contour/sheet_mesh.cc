@@ -22,7 +22,7 @@ SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t) {
   v.position = mean(a.position, b.position);
   v.point = a.point;
   v.erosion = mean(a.erosion, b.erosion);
-  v.strength = mean(a.strength, b.strength);
+  v.strength = 1 / mean(1 / a.strength, 1 / b.strength);
   v.ratio = mean(a.ratio, b.ratio);
   v.roundness = mean(a.roundness, b.roundness);
   v.area = mean(a.area, b.area);

@@ -41,7 +41,8 @@ std::vector<Vec3> positions(const SheetMesh& sheet);
 /// Points and triangles alone.
 Mesh mesh_of(const SheetMesh& sheet);
 
-/// a + t (b - a), all values; normals are turned to agree and made unit again.
+/// a + t (b - a), all values but the strength, which is above 0: it grows without bound where the gradient vanishes, and
+/// 1 / strength goes evenly.  Normals are turned to agree and made unit again.
 SheetVertex between(const SheetVertex& a, const SheetVertex& b, double t);
 
 }  // namespace affskel::core

@@ -52,12 +52,13 @@ class Choice {
 
   bool is_strong(std::uint32_t vertex) const { return evidence_.vertices[vertex].strength >= bounds_.low; }
 
-  // The pieces that squares form which share an edge with a strong end: not those that only touch at a corner.
-  DisjointSets pieces() const {
-    struct Side {
-      std::uint32_t low, high, square;
-      auto operator<=>(const Side&) const = default;
-    };
+  // A side of a square, with a strong end.
+  struct Side {
+    std::uint32_t low, high, square;
+    auto operator<=>(const Side&) const = default;
+  };
+
+  std::vector<Side> strong_sides() const {
     std::vector<Side> sides;
     const auto& rings = evidence_.cells.ring;
     for (std::uint32_t e = 0; e < rings.size(); ++e) {
@@ -67,20 +68,59 @@ class Choice {
       }
     }
     std::sort(sides.begin(), sides.end());
-    DisjointSets joined(rings.size());
-    for (std::size_t n = 1; n < sides.size(); ++n) {
-      if (sides[n - 1].low == sides[n].low && sides[n - 1].high == sides[n].high)
-        joined.unite(sides[n - 1].square, sides[n].square);
+    return sides;
+  }
+
+  // For each edge of the surface, use(its sides).
+  template <class Use>
+  static void for_each_edge(const std::vector<Side>& sides, const Use& use) {
+    const auto apart = [](const Side& a, const Side& b) { return a.low != b.low || a.high != b.high; };
+    for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
+      last = std::adjacent_find(first, sides.end(), apart);
+      if (last != sides.end()) ++last;
+      use(std::span<const Side>(first, last));
     }
+  }
+
+  // Squares with a strong vertex that do not stand on others: where a limb is nearly round, e turns from point to point,
+  // and weak crossings beside the strip borrow the strength of its vertices.
+  std::vector<char> squares_of_surface(const std::vector<Side>& sides) const {
+    const auto& rings = evidence_.cells.ring;
+    std::vector<char> result(rings.size());
+    std::transform(rings.begin(), rings.end(), result.begin(), [&](const auto& ring) {
+      return std::any_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return is_strong(v); });
+    });
+    for_each_edge(sides, [&](std::span<const Side> at_edge) {
+      if (at_edge.size() <= 2) return;
+      for (const Side& side : at_edge)
+        if (evidence_.strength[side.square] < bounds_.low) result[side.square] = 0;
+    });
+    return result;
+  }
+
+  // The pieces that squares form which share an edge with a strong end: not those that only touch at a corner.
+  static DisjointSets pieces(const std::vector<Side>& sides, const std::vector<char>& of_surface) {
+    DisjointSets joined(of_surface.size());
+    for_each_edge(sides, [&](std::span<const Side> at_edge) {
+      const Side* known = nullptr;
+      for (const Side& side : at_edge) {
+        if (!of_surface[side.square]) continue;
+        if (known != nullptr) joined.unite(known->square, side.square);
+        known = &side;
+      }
+    });
     return joined;
   }
 
   void take_surface() {
-    DisjointSets joined = pieces();
+    const std::vector<Side> sides = strong_sides();
+    const std::vector<char> of_surface = squares_of_surface(sides);
+    DisjointSets joined = pieces(sides, of_surface);
     const auto& rings = evidence_.cells.ring;
     std::vector<char> founded(rings.size(), 0);
     std::vector<double> area(rings.size(), 0);  // of pieces; a square's four corners have a quarter each
     for (std::uint32_t e = 0; e < rings.size(); ++e) {
+      if (!of_surface[e]) continue;
       const std::uint32_t piece = joined.find(e);
       for (const std::uint32_t v : rings[e]) {
         if (!is_strong(v)) continue;
@@ -89,9 +129,7 @@ class Choice {
       }
     }
     for (std::uint32_t e = 0; e < rings.size(); ++e) {
-      if (!founded[joined.find(e)] || area[joined.find(e)] < constants_.min_area) continue;
-      if (std::none_of(rings[e].begin(), rings[e].end(), [&](std::uint32_t v) { return is_strong(v); }))
-        continue;
+      if (!of_surface[e] || !founded[joined.find(e)] || area[joined.find(e)] < constants_.min_area) continue;
       double weight = 0;
       for (const std::uint32_t v : rings[e]) weight += evidence_.vertices[v].strength;
       take({complex_.square(evidence_.edges[e].point, evidence_.edges[e].axis), static_cast<float>(weight)});

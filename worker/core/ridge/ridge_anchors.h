@@ -24,6 +24,7 @@ struct RidgeEvidence {
   const SolidParts& parts;
   const FrameField& field;
   std::span<const LatticeEdge> edges;     ///< that the ridge surface crosses, from a weak strength on
+  std::span<const double> strength;       ///< of these crossings
   const EdgeCells& cells;                 ///< of these edges
   std::span<const SheetVertex> vertices;  ///< of the surface, one per cell
   std::span<const RidgeCurve> curves;     ///< from the lower bound on
@@ -52,7 +53,8 @@ struct RidgeAnchors {
 
 /// What a collapse of the solid must leave of its ridges.
 /// 1. The surface where it is strong: squares with a vertex of s >= low, in pieces that vertices of s >= low
-///    form, which have one of s >= high that is not round, and area enough.
+///    form, which have one of s >= high that is not round, and area enough.  Squares of weaker crossings that would be
+///    the third or fourth at an edge stand on the surface, and are not of it.
 /// 2. Stretches of ridge curves, off that, that are long enough.
 /// 3. Tips of limbs that end far from both.
 /// 4. Where these do not come near the middle of a component of the complex, where E^(1/4) times the distance to the

@@ -37,7 +37,7 @@ struct RidgeConstants {
   // lambda_1 is at most max_roundness somewhere in a piece.  A piece has this area at least, radii squared; a
   // stretch of a ridge curve this length, radii.
   double max_roundness = 0.8;
-  double min_area = 1;
+  double min_area = 0.9;
   double min_length = 2;
 
   // Limbs: so many times as long as thick, that end farther than so many radii and spacings from what is anchored.

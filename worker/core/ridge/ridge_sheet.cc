@@ -204,8 +204,11 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
       find_ridges(lattice, field, basis, nearest, clean ? &clean->distance : nullptr, options, constants);
   throw_if_stopped(options.context);
   std::vector<LatticeEdge> edges;
-  edges.reserve(found.crossings.size());
-  for (const RidgeCrossing& crossing : found.crossings) edges.push_back(crossing.edge);
+  std::vector<double> strengths;
+  for (const RidgeCrossing& crossing : found.crossings) {
+    edges.push_back(crossing.edge);
+    strengths.push_back(crossing.at.strength);
+  }
   const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
   const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
   std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
@@ -215,6 +218,7 @@ RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
                                .parts = parts,
                                .field = field,
                                .edges = edges,
+                               .strength = strengths,
                                .cells = cells,
                                .vertices = surface.vertices,
                                .curves = found.curves,

@@ -111,7 +111,9 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
                             std::span<const double> weights, const Vec3& across) const {
   SheetVertex vertex;
   vertex.position = position;
-  vertex.point = points[0];
+  // The nearest of them: the first would be on the outer side in one half of a symmetric solid, on the inner in the other.
+  const auto heaviest = std::max_element(weights.begin(), weights.end());
+  vertex.point = points[static_cast<std::size_t>(heaviest - weights.begin())];
   Vec3 gradient;
   double value = 0, least = 0, width = 0, radius = 0;
   for (std::size_t n = 0; n < points.size(); ++n) {

@@ -150,11 +150,9 @@ class Placing {
       const SheetVertex &at = mesh_.vertices[v], &strong = mesh_.vertices[to];
       if (at.kind != SkeletonKind::kRidge || strong.kind != SkeletonKind::kRidge) return;
       if (rim_neighbours_[v].empty() || !weak(v) || weak(to)) return;
-      // Strengths reach far up where the gradient vanishes; the line is near the weak end all the same.
-      const double high = std::min(strong.strength, 4 * from_.low);
-      const double t = high > at.strength ? (from_.low - at.strength) / (high - at.strength) : 0;
-      drawn[v] = between(met[v] == 0 ? at : drawn[v], between(at, strong, std::clamp(t, 0.0, 1.0)),
-                         1 / static_cast<double>(met[v] + 1));
+      const double t = (1 / at.strength - 1 / from_.low) / (1 / at.strength - 1 / strong.strength);
+      drawn[v] =
+          between(met[v] == 0 ? at : drawn[v], between(at, strong, t), 1 / static_cast<double>(met[v] + 1));
       ++met[v];
     };
     for (const auto& ring : cells_.rings) {
