@@ -10,6 +10,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/require.h"
+#include "core/ridge/surface_squares.h"
 
 namespace affskel::core {
 namespace {
@@ -50,86 +51,33 @@ class Choice {
     return static_cast<double>(evidence_.radius[vertex.point]);
   }
 
-  bool is_strong(std::uint32_t vertex) const { return evidence_.vertices[vertex].strength >= bounds_.low; }
-
-  // A side of a square, with a strong end.
-  struct Side {
-    std::uint32_t low, high, square;
-    auto operator<=>(const Side&) const = default;
-  };
-
-  std::vector<Side> strong_sides() const {
-    std::vector<Side> sides;
-    const auto& rings = evidence_.cells.ring;
-    for (std::uint32_t e = 0; e < rings.size(); ++e) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t a = rings[e][k], b = rings[e][(k + 1) % 4];
-        if (is_strong(a) || is_strong(b)) sides.push_back({std::min(a, b), std::max(a, b), e});
-      }
-    }
-    std::sort(sides.begin(), sides.end());
-    return sides;
-  }
-
-  // For each edge of the surface, use(its sides).
-  template <class Use>
-  static void for_each_edge(const std::vector<Side>& sides, const Use& use) {
-    const auto apart = [](const Side& a, const Side& b) { return a.low != b.low || a.high != b.high; };
-    for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
-      last = std::adjacent_find(first, sides.end(), apart);
-      if (last != sides.end()) ++last;
-      use(std::span<const Side>(first, last));
-    }
-  }
-
-  // Squares with a strong vertex that do not stand on others: where a limb is nearly round, e turns from point to point,
-  // and weak crossings beside the strip borrow the strength of its vertices.
-  std::vector<char> squares_of_surface(const std::vector<Side>& sides) const {
-    const auto& rings = evidence_.cells.ring;
-    std::vector<char> result(rings.size());
-    std::transform(rings.begin(), rings.end(), result.begin(), [&](const auto& ring) {
-      return std::any_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return is_strong(v); });
-    });
-    for_each_edge(sides, [&](std::span<const Side> at_edge) {
-      if (at_edge.size() <= 2) return;
-      for (const Side& side : at_edge)
-        if (evidence_.strength[side.square] < bounds_.low) result[side.square] = 0;
-    });
-    return result;
-  }
-
-  // The pieces that squares form which share an edge with a strong end: not those that only touch at a corner.
-  static DisjointSets pieces(const std::vector<Side>& sides, const std::vector<char>& of_surface) {
-    DisjointSets joined(of_surface.size());
-    for_each_edge(sides, [&](std::span<const Side> at_edge) {
-      const Side* known = nullptr;
-      for (const Side& side : at_edge) {
-        if (!of_surface[side.square]) continue;
-        if (known != nullptr) joined.unite(known->square, side.square);
-        known = &side;
-      }
-    });
-    return joined;
+  // Per square of the surface: the mean over the two sample points that it lies between.
+  std::vector<double> radii_of_squares() const {
+    std::vector<double> radii;
+    for (const LatticeEdge& edge : evidence_.edges)
+      radii.push_back(0.5 *
+                      (static_cast<double>(evidence_.radius[edge.point]) +
+                       static_cast<double>(evidence_.radius[complex_.neighbour(edge.point, edge.axis, 2)])));
+    return radii;
   }
 
   void take_surface() {
-    const std::vector<Side> sides = strong_sides();
-    const std::vector<char> of_surface = squares_of_surface(sides);
-    DisjointSets joined = pieces(sides, of_surface);
+    const std::vector<double> radii = radii_of_squares();
+    const auto [taken, piece] = surface_squares(
+        {evidence_.cells, evidence_.vertices, evidence_.strength, radii}, bounds_.low, constants_.gap);
     const auto& rings = evidence_.cells.ring;
     std::vector<char> founded(rings.size(), 0);
     std::vector<double> area(rings.size(), 0);  // of pieces; a square's four corners have a quarter each
     for (std::uint32_t e = 0; e < rings.size(); ++e) {
-      if (!of_surface[e]) continue;
-      const std::uint32_t piece = joined.find(e);
+      if (!taken[e]) continue;
       for (const std::uint32_t v : rings[e]) {
-        if (!is_strong(v)) continue;
-        if (founds(evidence_.vertices[v])) founded[piece] = 1;
-        area[piece] += 0.25 / (radius_at(evidence_.vertices[v]) * radius_at(evidence_.vertices[v]));
+        if (evidence_.vertices[v].strength < bounds_.low) continue;
+        if (founds(evidence_.vertices[v])) founded[piece[e]] = 1;
+        area[piece[e]] += 0.25 / (radius_at(evidence_.vertices[v]) * radius_at(evidence_.vertices[v]));
       }
     }
     for (std::uint32_t e = 0; e < rings.size(); ++e) {
-      if (!of_surface[e] || !founded[joined.find(e)] || area[joined.find(e)] < constants_.min_area) continue;
+      if (!taken[e] || !founded[piece[e]] || area[piece[e]] < constants_.min_area) continue;
       double weight = 0;
       for (const std::uint32_t v : rings[e]) weight += evidence_.vertices[v].strength;
       take({complex_.square(evidence_.edges[e].point, evidence_.edges[e].axis), static_cast<float>(weight)});

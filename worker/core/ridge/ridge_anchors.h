@@ -52,9 +52,8 @@ struct RidgeAnchors {
 };
 
 /// What a collapse of the solid must leave of its ridges.
-/// 1. The surface where it is strong: squares with a vertex of s >= low, in pieces that vertices of s >= low
-///    form, which have one of s >= high that is not round, and area enough.  Squares of weaker crossings that would be
-///    the third or fourth at an edge stand on the surface, and are not of it.
+/// 1. The surface where it is strong (see surface_squares()), in pieces that have a vertex of s >= high that is not round,
+///    and area enough.
 /// 2. Stretches of ridge curves, off that, that are long enough.
 /// 3. Tips of limbs that end far from both.
 /// 4. Where these do not come near the middle of a component of the complex, where E^(1/4) times the distance to the

@@ -35,8 +35,9 @@ struct RidgeConstants {
 
   // Anchors.  About the centre of a ball E falls alike in all directions, and e is any of them: lambda_3 /
   // lambda_1 is at most max_roundness somewhere in a piece.  A piece has this area at least, radii squared; a
-  // stretch of a ridge curve this length, radii.
+  // stretch of a ridge curve this length, radii.  Gaps between strong places are closed up to twice this width, radii.
   double max_roundness = 0.8;
+  double gap = 0.5;
   double min_area = 0.9;
   double min_length = 2;
 

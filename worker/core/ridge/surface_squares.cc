@@ -1,0 +1,138 @@
+#include "core/ridge/surface_squares.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/cheapest_ways.h"
+#include "core/base/disjoint_sets.h"
+#include "core/base/groups.h"
+
+namespace affskel::core {
+namespace {
+
+class Selection {
+ public:
+  Selection(const CrossedSquares& squares, double low)
+      : squares_(squares), low_(low), count_(squares.cells.ring.size()) {
+    for (std::uint32_t square = 0; square < count_; ++square) {
+      const auto& ring = squares.cells.ring[square];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto [a, b] = std::minmax(ring[k], ring[(k + 1) % 4]);
+        sides_.push_back({a, b, square});
+      }
+    }
+    std::sort(sides_.begin(), sides_.end());
+  }
+
+  SurfaceSquares run(double gap) {
+    take_strong();
+    leave_out_standing();
+    close_gaps(gap);
+    std::vector<std::uint32_t> piece = pieces();
+    return {std::move(taken_), std::move(piece)};
+  }
+
+ private:
+  struct Side {
+    std::uint32_t low, high, square;
+    auto operator<=>(const Side&) const = default;
+  };
+
+  bool is_strong(std::uint32_t vertex) const { return squares_.vertices[vertex].strength >= low_; }
+  bool is_strong(const Side& side) const { return is_strong(side.low) || is_strong(side.high); }
+
+  // For each edge, use(its sides).
+  template <class Use>
+  void for_each_edge(const Use& use) const {
+    const auto apart = [](const Side& a, const Side& b) { return a.low != b.low || a.high != b.high; };
+    for (auto first = sides_.begin(), last = first; first != sides_.end(); first = last) {
+      last = std::adjacent_find(first, sides_.end(), apart);
+      if (last != sides_.end()) ++last;
+      use(std::span<const Side>(first, last));
+    }
+  }
+
+  void take_strong() {
+    taken_.resize(count_);
+    std::transform(
+        squares_.cells.ring.begin(), squares_.cells.ring.end(), taken_.begin(), [&](const auto& ring) {
+          return std::any_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return is_strong(v); });
+        });
+  }
+
+  void leave_out_standing() {
+    for_each_edge([&](std::span<const Side> sides) {
+      if (sides.size() <= 2) return;
+      for (const Side& side : sides)
+        if (squares_.strength[side.square] < low_) taken_[side.square] = 0;
+    });
+  }
+
+  // Ways, in radii, lead over edges of two squares; at others the surface ends.
+  void close_gaps(double gap) {
+    std::vector<char> ends(count_, 0);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> beside;
+    for_each_edge([&](std::span<const Side> sides) {
+      if (sides.size() == 2)
+        beside.emplace_back(sides[0].square, sides[1].square);
+      else
+        for (const Side& side : sides) ends[side.square] = 1;
+    });
+    const Groups<std::uint32_t> neighbours(count_, [&](const auto& put) {
+      for (const auto& [a, b] : beside) {
+        put(a, b);
+        put(b, a);
+      }
+    });
+    const auto ways_from = [&](const auto& is_source) {
+      std::vector<std::uint32_t> sources(count_, kNoNode);
+      for (std::uint32_t square = 0; square < count_; ++square)
+        if (is_source(square)) sources[square] = 0;
+      CheapestWays ways(std::move(sources));
+      ways.find([&](std::uint32_t square, const auto& go) {
+        for (const std::uint32_t to : neighbours[square])
+          go(to, 0.5 / squares_.radius[square] + 0.5 / squares_.radius[to], square);
+      });
+      return std::move(ways.cost);
+    };
+    const std::vector<double> from_taken =
+        ways_from([&](std::uint32_t square) { return taken_[square] != 0; });
+    const std::vector<double> from_beyond =
+        ways_from([&](std::uint32_t square) { return ends[square] != 0 || from_taken[square] > gap; });
+    closes_.assign(count_, 0);
+    for (std::uint32_t square = 0; square < count_; ++square) {
+      closes_[square] = !taken_[square] && from_beyond[square] > gap;
+      if (closes_[square]) taken_[square] = 1;
+    }
+  }
+
+  std::vector<std::uint32_t> pieces() const {
+    DisjointSets joined(count_);
+    for_each_edge([&](std::span<const Side> sides) {
+      const Side* known = nullptr;
+      for (const Side& side : sides) {
+        if (!taken_[side.square]) continue;
+        if (known != nullptr && (is_strong(side) || closes_[known->square] || closes_[side.square]))
+          joined.unite(known->square, side.square);
+        known = &side;
+      }
+    });
+    std::vector<std::uint32_t> piece(count_);
+    for (std::uint32_t square = 0; square < count_; ++square) piece[square] = joined.find(square);
+    return piece;
+  }
+
+  const CrossedSquares& squares_;
+  double low_;
+  std::size_t count_;
+  std::vector<Side> sides_;           // of all squares, by edge
+  std::vector<char> taken_, closes_;  // per square
+};
+
+}  // namespace
+
+SurfaceSquares surface_squares(const CrossedSquares& squares, double low, double gap) {
+  return Selection(squares, low).run(gap);
+}
+
+}  // namespace affskel::core
