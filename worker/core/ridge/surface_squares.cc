@@ -10,6 +10,9 @@
 namespace affskel::core {
 namespace {
 
+// How deep what closes a gap is at least, squares.
+constexpr double kStep = 1.5;
+
 class Selection {
  public:
   Selection(const CrossedSquares& squares, double low)
@@ -99,10 +102,25 @@ class Selection {
         ways_from([&](std::uint32_t square) { return taken_[square] != 0; });
     const std::vector<double> from_beyond =
         ways_from([&](std::uint32_t square) { return ends[square] != 0 || from_taken[square] > gap; });
+    take_gaps(from_beyond, gap, neighbours);
+  }
+
+  // What closes gaps, where it is deep somewhere: else it is a step of the lattice at the surface's rim.
+  void take_gaps(const std::vector<double>& from_beyond, double gap,
+                 const Groups<std::uint32_t>& neighbours) {
     closes_.assign(count_, 0);
-    for (std::uint32_t square = 0; square < count_; ++square) {
-      closes_[square] = !taken_[square] && from_beyond[square] > gap;
-      if (closes_[square]) taken_[square] = 1;
+    std::vector<std::uint32_t> front;
+    const auto take = [&](std::uint32_t square) {
+      if (taken_[square] || from_beyond[square] <= gap) return;
+      taken_[square] = closes_[square] = 1;
+      front.push_back(square);
+    };
+    for (std::uint32_t square = 0; square < count_; ++square)
+      if (from_beyond[square] > gap + kStep / squares_.radius[square]) take(square);
+    while (!front.empty()) {
+      const std::uint32_t square = front.back();
+      front.pop_back();
+      for (const std::uint32_t to : neighbours[square]) take(to);
     }
   }
 

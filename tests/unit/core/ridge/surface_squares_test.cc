@@ -75,6 +75,15 @@ TEST(SurfaceSquares, StayApartAcrossAWideGap) {
   EXPECT_NE(squares.piece[square_at(10, 4)], squares.piece[square_at(10, 15)]);
 }
 
+// A notch of one square in the rim is closed by no more than a square: the rim is as the strength draws it.
+TEST(SurfaceSquares, KeepStepsOfTheRim) {
+  SquarePlane plane;
+  plane.strengthen(17, 4, 17);
+  for (std::uint32_t x = 10; x < 12; ++x) plane.vertices[vertex_at(x, 16)].strength = kWeak;
+  EXPECT_EQ(count_taken(plane.select(0.5)), count_taken(plane.select(0)));
+  EXPECT_FALSE(plane.select(0.5).taken[square_at(10, 16)]);
+}
+
 // The third square at an edge is one of the surface's branches if its own crossing is strong.
 TEST(SurfaceSquares, LeaveOutWeakOnesThatStandOnOthers) {
   for (const double own : {kWeak, kStrong}) {
