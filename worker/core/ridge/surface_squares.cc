@@ -10,7 +10,7 @@
 namespace affskel::core {
 namespace {
 
-// How deep what closes a gap is at least, squares.
+// Where the solid grows thinner outwards ways there are longer, by up to this, squares: closing would move rims out.
 constexpr double kStep = 1.5;
 
 class Selection {
@@ -102,25 +102,10 @@ class Selection {
         ways_from([&](std::uint32_t square) { return taken_[square] != 0; });
     const std::vector<double> from_beyond =
         ways_from([&](std::uint32_t square) { return ends[square] != 0 || from_taken[square] > gap; });
-    take_gaps(from_beyond, gap, neighbours);
-  }
-
-  // What closes gaps, where it is deep somewhere: else it is a step of the lattice at the surface's rim.
-  void take_gaps(const std::vector<double>& from_beyond, double gap,
-                 const Groups<std::uint32_t>& neighbours) {
     closes_.assign(count_, 0);
-    std::vector<std::uint32_t> front;
-    const auto take = [&](std::uint32_t square) {
-      if (taken_[square] || from_beyond[square] <= gap) return;
-      taken_[square] = closes_[square] = 1;
-      front.push_back(square);
-    };
-    for (std::uint32_t square = 0; square < count_; ++square)
-      if (from_beyond[square] > gap + kStep / squares_.radius[square]) take(square);
-    while (!front.empty()) {
-      const std::uint32_t square = front.back();
-      front.pop_back();
-      for (const std::uint32_t to : neighbours[square]) take(to);
+    for (std::uint32_t square = 0; square < count_; ++square) {
+      closes_[square] = !taken_[square] && from_beyond[square] > gap + kStep / squares_.radius[square];
+      if (closes_[square]) taken_[square] = 1;
     }
   }
 

@@ -27,8 +27,8 @@ struct SurfaceSquares {
 /// 2. Without those that stand on others: weaker crossings that would be the third or fourth at an edge.  Where a limb is
 ///    nearly round, e turns from point to point, and weak crossings beside a strip borrow the strength of its vertices.
 /// 3. With the weaker ones in gaps between them: morphological closing along the surface (Serra 1982).  What is nearer to
-///    strong squares than `gap`, and farther than that from what is not, or from where the surface ends.  Where that is nowhere a
-///    square and a half deep, it is a step of the rim, and stays as it is.
+///    strong squares than `gap`, and farther than that, by a square and a half, from what is not, or from where the surface
+///    ends.
 /// Pieces are formed over edges with a strong end, and over all edges of what closes gaps.
 /// A function of its arguments alone; the lower `low`, the more.
 /// @param gap half the width of gaps, radii.

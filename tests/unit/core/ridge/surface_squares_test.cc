@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/split_mix64.h"
+
 namespace affskel::core {
 namespace {
 
@@ -82,6 +84,25 @@ TEST(SurfaceSquares, KeepTheRimWhereTheSolidGrowsThinner) {
   for (std::uint32_t y = 12; y < kRows; ++y)
     for (std::uint32_t x = 0; x < kColumns; ++x) plane.radius[square_at(x, y)] = 8 - 0.8 * (y - 11);
   EXPECT_EQ(plane.select(0.5).taken, plane.select(0).taken);
+}
+
+// On a plane with random strengths, and squares that stand on it.
+TEST(SurfaceSquares, AreTheMoreTheLowerTheBound) {
+  SquarePlane plane;
+  SplitMix64 random(1);
+  const auto any_strength = [&] { return 5.5 + 4.5 * random.symmetric(); };
+  for (SheetVertex& v : plane.vertices) v.strength = any_strength();
+  for (std::uint32_t x = 2; x < kColumns; x += 3)
+    plane.add({vertex_at(x, 9), vertex_at(x + 1, 9), vertex_at(x, 12), vertex_at(x + 1, 12)}, 0);
+  for (double& own : plane.strength) own = any_strength();
+  std::vector<char> taken(plane.strength.size(), 0);
+  for (double low = 10; low > 1; low -= 0.25) {
+    const std::vector<char> more =
+        surface_squares({plane.cells, plane.vertices, plane.strength, plane.radius}, low, 0.3).taken;
+    for (std::size_t square = 0; square < taken.size(); ++square)
+      EXPECT_LE(taken[square], more[square]) << low;
+    taken = more;
+  }
 }
 
 // The third square at an edge is one of the surface's branches if its own crossing is strong.
