@@ -121,7 +121,9 @@ TEST_F(DeriveTest, SheetsHaveParts) {
   }
 }
 
+// That of `ridge` lies in the plane of symmetry, where barriers are 0; that of `chords` does not quite.
 TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {
+  double highest = 0;
   for (const v1::Operator which : {v1::OPERATOR_CHORDS, v1::OPERATOR_RIDGE}) {
     v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
     lease.mutable_surface()->mutable_skeleton()->set_operator_(which);
@@ -133,10 +135,11 @@ TEST_F(DeriveTest, ASheetHasBarriersWhereTheyAreAskedFor) {
     v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(one);
     ASSERT_EQ(sheet.barrier_size(), sheet.erosion_size());
     for (const double barrier : sheet.barrier()) EXPECT_GE(barrier, 0);
-    EXPECT_GT(*std::ranges::max_element(sheet.barrier()), 0);
+    highest = std::max(highest, *std::ranges::max_element(sheet.barrier()));
     sheet.clear_barrier();
     EXPECT_EQ(sheet.SerializeAsString(), plain.SerializeAsString()) << "nothing else changes";
   }
+  EXPECT_GT(highest, 0);
 }
 
 TEST_F(DeriveTest, ALeastBarrierCutsTheSheet) {
