@@ -47,13 +47,32 @@ Rgb Panel::Layers::over(Rgb behind) const {
   return mix((1 / weight) * colour, behind, transmittance);
 }
 
-Panel::Panel(int width, int height, const View& view, const Vec3& centre, double scale)
+Panel::Panel(int width, int height, const View& view, const Vec3& centre, double scale, std::size_t samples)
     : columns_(width * kSamples),
-      rows_(height * kSamples),
+      height_(height * kSamples),
+      rows_{0, height_},
       view_(view),
       centre_(centre),
       scale_(scale * kSamples) {
-  samples_.assign(std::size_t(columns_) * std::size_t(rows_), Sample{});
+  const auto pixels = static_cast<int>(samples / (std::size_t(columns_) * kSamples));
+  rows_.end = std::min(height_, kSamples * std::max(1, pixels));
+  samples_.resize(std::size_t(columns_) * std::size_t(rows_.end));
+}
+
+Panel::Panel(int width, int height, const View& view, const Vec3& centre, double scale)
+    : Panel(width, height, view, centre, scale,
+            std::size_t(width) * std::size_t(height) * kSamples * kSamples) {}
+
+Panel Panel::banded(int width, int height, const View& view, const Vec3& centre, double scale) {
+  return {width, height, view, centre, scale, kBand};
+}
+
+bool Panel::next_band() {
+  if (rows_.end == height_) return false;
+  rows_ = {rows_.end, std::min(height_, 2 * rows_.end - rows_.first)};
+  samples_.assign(std::size_t(columns_) * std::size_t(rows_.end - rows_.first), Sample{});
+  shell_.clear();
+  return true;
 }
 
 PanelPlace Panel::place(const Vec3& point) const {
@@ -63,8 +82,8 @@ PanelPlace Panel::place(const Vec3& point) const {
 
 Panel::Projected Panel::project(const Vec3& point) const {
   const Vec3 p = point - centre_;
-  return {columns_ / 2.0 + scale_ * core::dot(view_.right, p), rows_ / 2.0 - scale_ * core::dot(view_.up, p),
-          scale_ * core::dot(view_.toward, p)};
+  return {columns_ / 2.0 + scale_ * core::dot(view_.right, p),
+          height_ / 2.0 - scale_ * core::dot(view_.up, p), scale_ * core::dot(view_.toward, p)};
 }
 
 void Panel::cover(Sample& sample, float depth, Rgb colour) {
@@ -78,8 +97,8 @@ void Panel::draw_ball(const Ball& ball, double radius) {
   const Projected c = project(ball.centre);
   const double r = radius * kSamples;
   const int x_end = std::min(columns_ - 1, static_cast<int>(std::ceil(c.x + r)));
-  const int y_end = std::min(rows_ - 1, static_cast<int>(std::ceil(c.y + r)));
-  for (int y = std::max(0, static_cast<int>(std::floor(c.y - r))); y <= y_end; ++y) {
+  const int y_end = std::min(rows_.end - 1, static_cast<int>(std::ceil(c.y + r)));
+  for (int y = std::max(rows_.first, static_cast<int>(std::floor(c.y - r))); y <= y_end; ++y) {
     for (int x = std::max(0, static_cast<int>(std::floor(c.x - r))); x <= x_end; ++x) {
       const double dx = (x + 0.5 - c.x) / r, dy = (y + 0.5 - c.y) / r;
       const double rest = 1 - dx * dx - dy * dy;
@@ -96,8 +115,8 @@ void Panel::draw_disc(const Vec3& centre, Rgb colour, double radius) {
   const Projected c = project(centre);
   const double r = radius * kSamples;
   const int x_end = std::min(columns_ - 1, static_cast<int>(std::ceil(c.x + r)));
-  const int y_end = std::min(rows_ - 1, static_cast<int>(std::ceil(c.y + r)));
-  for (int y = std::max(0, static_cast<int>(std::floor(c.y - r))); y <= y_end; ++y) {
+  const int y_end = std::min(rows_.end - 1, static_cast<int>(std::ceil(c.y + r)));
+  for (int y = std::max(rows_.first, static_cast<int>(std::floor(c.y - r))); y <= y_end; ++y) {
     for (int x = std::max(0, static_cast<int>(std::floor(c.x - r))); x <= x_end; ++x) {
       const double dx = x + 0.5 - c.x, dy = y + 0.5 - c.y;
       if (dx * dx + dy * dy <= r * r) cover(at(x, y), static_cast<float>(c.depth), colour);
@@ -123,8 +142,8 @@ void Panel::draw_ellipsoid(const Ball& ball, const std::array<Vec3, 3>& half_axe
   const double high = core::norm(Vec3{axis[0].y, axis[1].y, axis[2].y});
   const Projected c = project(ball.centre);
   const int x_end = std::min(columns_ - 1, static_cast<int>(std::ceil(c.x + wide)));
-  const int y_end = std::min(rows_ - 1, static_cast<int>(std::ceil(c.y + high)));
-  for (int y = std::max(0, static_cast<int>(std::floor(c.y - high))); y <= y_end; ++y) {
+  const int y_end = std::min(rows_.end - 1, static_cast<int>(std::ceil(c.y + high)));
+  for (int y = std::max(rows_.first, static_cast<int>(std::floor(c.y - high))); y <= y_end; ++y) {
     for (int x = std::max(0, static_cast<int>(std::floor(c.x - wide))); x <= x_end; ++x) {
       // Where |u|^2 = 1 nearest to the viewer, u = at + depth along.
       const double right = x + 0.5 - c.x, up = c.y - (y + 0.5);
@@ -259,7 +278,7 @@ void Panel::draw_shell(const core::Mesh& mesh, const std::vector<Vec3>& normals,
     const Vec3* n = &normals[3 * t];
     for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
       const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
-      ShellSample& sample = shell_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+      ShellSample& sample = shell_[index_of(x, y)];
       if (sample.opacity > 0 && depth <= sample.depth) return;
       const Vec3 normal = direction_of((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
       const double light = lambert(core::dot(normal, view_.right), core::dot(normal, view_.up),
@@ -271,19 +290,18 @@ void Panel::draw_shell(const core::Mesh& mesh, const std::vector<Vec3>& normals,
 }
 
 Image Panel::resolve(Rgb background) const {
-  Image image(columns_ / kSamples, rows_ / kSamples);
+  Image image(columns_ / kSamples, (rows_.end - rows_.first) / kSamples);
   constexpr float kShare = 1.0f / (kSamples * kSamples);
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       Rgb sum;
       for (int s = 0; s < kSamples * kSamples; ++s) {
-        const Sample& sample = at(x * kSamples + s % kSamples, y * kSamples + s / kSamples);
+        const std::size_t row = std::size_t(y * kSamples + s / kSamples);
+        const std::size_t i = row * std::size_t(columns_) + std::size_t(x * kSamples + s % kSamples);
+        const Sample& sample = samples_[i];
         const Rgb behind = sample.covered ? sample.solid : sample.back.over(background);
         Rgb seen = sample.front.over(behind);
-        if (!shell_.empty()) {
-          const ShellSample& shell = shell_[static_cast<std::size_t>(&sample - samples_.data())];
-          seen = mix(seen, shell.colour, shell.opacity);
-        }
+        if (!shell_.empty()) seen = mix(seen, shell_[i].colour, shell_[i].opacity);
         sum = sum + seen;
       }
       image.at(x, y) = kShare * sum;

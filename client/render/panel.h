@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/render/image.h"
+#include "client/render/raster.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::client {
@@ -43,12 +44,23 @@ struct PanelPlace {
 /// Draws one view: opaque balls, sheets and curves, depth-buffered, inside translucent surfaces.  Works on a
 /// grid of 2 x 2 samples per pixel.  Surfaces are composed without sorting: each of their layers takes a
 /// share of the light, and the layers in front of a ball and those behind it are kept apart.
+///
+/// A sample takes 60 bytes: a large picture is drawn in bands of whole rows, all of the scene for each.
 class Panel {
  public:
-  static constexpr int kSamples = 2;  ///< per pixel and axis
+  static constexpr int kSamples = 2;                          ///< per pixel and axis
+  static constexpr std::size_t kBand = std::size_t(1) << 17;  ///< samples that a band has at most, or one row
 
+  /// Of the whole picture.
   /// @param scale pixels per mesh unit; @param centre is shown in the middle of the picture.
   Panel(int width, int height, const View& view, const core::Vec3& centre, double scale);
+  /// Of its uppermost band.
+  static Panel banded(int width, int height, const View& view, const core::Vec3& centre, double scale);
+
+  /// Empties it for the band below; false where there is none.
+  bool next_band();
+  /// The first row of pixels of the band.
+  int top() const { return rows_.first / kSamples; }
 
   PanelPlace place(const core::Vec3& point) const;
 
@@ -73,10 +85,12 @@ class Panel {
   void draw_shell(const core::Mesh& mesh, const std::vector<core::Vec3>& normals,
                   const std::vector<Rgb>& colours, float opacity);
 
-  /// The finished picture.
+  /// The finished picture; of the band alone where it has one.
   Image resolve(Rgb background = kWhite) const;
 
  private:
+  Panel(int width, int height, const View& view, const core::Vec3& centre, double scale, std::size_t samples);
+
   struct Layers {
     float transmittance = 1;  // share of the light from behind that passes all layers
     float weight = 0;         // sum of the layers' opacities
@@ -114,16 +128,17 @@ class Panel {
   bool draw_profile(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours);
   // Keeps what is nearer.
   static void cover(Sample& sample, float depth, Rgb colour);
-  const Sample& at(int x, int y) const {
-    return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+  std::size_t index_of(int x, int y) const {
+    return std::size_t(y - rows_.first) * std::size_t(columns_) + std::size_t(x);
   }
-  Sample& at(int x, int y) { return samples_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)]; }
+  Sample& at(int x, int y) { return samples_[index_of(x, y)]; }
 
-  int columns_, rows_;  // of samples
+  int columns_, height_;  // of the whole picture, samples
+  SampleRows rows_;       // of the band
   View view_;
   core::Vec3 centre_;
-  double scale_;  // samples per mesh unit
-  std::vector<Sample> samples_;
+  double scale_;                    // samples per mesh unit
+  std::vector<Sample> samples_;     // of the band
   std::vector<ShellSample> shell_;  // as many, or none
 };
 

@@ -141,18 +141,17 @@ core::Mesh mesh_of(const v1::TriangleMesh& surface) {
   return mesh;
 }
 
-// @param curve_width pixels; what is no wider is a spot. @param scale pixels per unit. @param colours per vertex.
-void draw_sheet(const v1::TriangleMesh& sheet, const std::vector<Rgb>& colours, double curve_width,
-                double scale, Panel& panel) {
-  const core::Mesh mesh = mesh_of(sheet);
-  panel.draw_sheet(mesh, colours);
-  std::vector<core::Segment> segments;
-  for (int i = 0; i < sheet.segments_size(); i += 2)
-    segments.push_back({sheet.segments(i), sheet.segments(i + 1)});
-  panel.draw_curves(mesh.points, segments, colours, curve_width);
-  for (const std::uint32_t v : spots_of(sheet, curve_width / scale))
-    panel.draw_ball({mesh.points[v], colours[v]}, curve_width);
-}
+// What all views show alike, made once.
+struct Scene {
+  double highest = 0;        // the E of the last colour
+  core::Mesh sheet;          // no triangles: none
+  std::vector<Rgb> colours;  // of its vertices
+  std::vector<core::Segment> curves;
+  std::vector<std::uint32_t> spots;  // vertices of what is no wider than a curve
+  double curve_width = 0;            // pixels
+  core::Mesh eroded;
+  std::vector<Vec3> eroded_normals, body_normals;  // by triangle and corner
+};
 
 // Of the sheet's vertices.  Through a painted body it shines as what is behind it does not.
 std::vector<Rgb> colours_of(const RenderInput& input, double highest, Rgb background) {
@@ -163,16 +162,38 @@ std::vector<Rgb> colours_of(const RenderInput& input, double highest, Rgb backgr
   return colours;
 }
 
-void draw_solids(const RenderInput& input, const RenderOptions& options, Panel& panel) {
-  if (!input.eroded.corners().empty()) {
-    const core::Mesh eroded = mesh_of(input.eroded);
-    panel.draw_surface(eroded, corner_normals(eroded), kErodedGlass);
-  }
+Scene make_scene(const RenderInput& input, const RenderOptions& options, const Layout& layout) {
+  Scene scene;
+  scene.highest = highest_of(input);
+  scene.sheet = mesh_of(input.sheet);
+  scene.colours = colours_of(input, scene.highest, options.background);
+  for (int i = 0; i < input.sheet.segments_size(); i += 2)
+    scene.curves.push_back({input.sheet.segments(i), input.sheet.segments(i + 1)});
+  scene.curve_width = std::max(2.0, layout.text / 5);
+  scene.spots = spots_of(input.sheet, scene.curve_width / layout.scale());
+  scene.eroded = mesh_of(input.eroded);
+  scene.eroded_normals = corner_normals(scene.eroded);
   if (input.painted) {
-    panel.draw_shell(input.painted->mesh, corner_normals(input.painted->mesh), input.painted->colours,
-                     input.painted->opacity);
+    scene.body_normals = corner_normals(input.painted->mesh);
   } else if (options.mesh) {
-    panel.draw_surface(input.mesh, corner_normals(input.mesh),
+    scene.body_normals = corner_normals(input.mesh);
+  }
+  return scene;
+}
+
+void draw_sheet(const Scene& scene, Panel& panel) {
+  panel.draw_sheet(scene.sheet, scene.colours);
+  panel.draw_curves(scene.sheet.points, scene.curves, scene.colours, scene.curve_width);
+  for (const std::uint32_t v : scene.spots)
+    panel.draw_ball({scene.sheet.points[v], scene.colours[v]}, scene.curve_width);
+}
+
+void draw_solids(const RenderInput& input, const RenderOptions& options, const Scene& scene, Panel& panel) {
+  if (!scene.eroded.triangles.empty()) panel.draw_surface(scene.eroded, scene.eroded_normals, kErodedGlass);
+  if (input.painted) {
+    panel.draw_shell(input.painted->mesh, scene.body_normals, input.painted->colours, input.painted->opacity);
+  } else if (options.mesh) {
+    panel.draw_surface(input.mesh, scene.body_normals,
                        is_dark(options.background) ? kGlassOnDark : kGlassOnLight);
   }
 }
@@ -190,20 +211,19 @@ void draw_marks(const RenderInput& input, const Layout& layout, Panel& panel) {
 
 // One view with its name above it.
 void draw_view(Image& image, const RenderInput& input, const RenderOptions& options, const Layout& layout,
-               const Shown& shown, std::size_t which) {
+               const Scene& scene, const Shown& shown, std::size_t which) {
   const int width = static_cast<int>(std::ceil(layout.scale() * shown.width)) + layout.margin / 2;
   const int height = static_cast<int>(std::ceil(layout.scale() * shown.height)) + layout.margin / 2;
-  Panel panel(width, height, shown.view, shown.centre, layout.scale());
-  const double highest = highest_of(input);
-  draw_points(input, layout, highest, panel);
-  const std::vector<Rgb> colours = colours_of(input, highest, options.background);
-  const double curve_width = std::max(2.0, layout.text / 5);
-  draw_sheet(input.sheet, colours, curve_width, layout.scale(), panel);
-  draw_marks(input, layout, panel);
-  draw_solids(input, options, panel);
   const ScreenPoint at = layout.place(which);
-  paste(image, panel.resolve(options.background), static_cast<int>(at.x),
-        static_cast<int>(at.y + layout.label));
+  Panel panel = Panel::banded(width, height, shown.view, shown.centre, layout.scale());
+  do {
+    draw_points(input, layout, scene.highest, panel);
+    draw_sheet(scene, panel);
+    draw_marks(input, layout, panel);
+    draw_solids(input, options, scene, panel);
+    paste(image, panel.resolve(options.background), static_cast<int>(at.x),
+          static_cast<int>(at.y + layout.label) + panel.top());
+  } while (panel.next_band());
   if (options.bare) return;
   if (input.painted)
     draw_labels(*input.painted, panel, {std::floor(at.x), std::floor(at.y + layout.label)}, 0.8 * layout.text,
@@ -243,7 +263,8 @@ Image render_scene(const RenderInput& input, const RenderOptions& options) {
   legend.ink = ink_on(options.background);
   const Layout layout = lay_out(views, options, input, legend);
   Image image(options.width, layout.height(), options.background);
-  for (std::size_t v = 0; v < views.size(); ++v) draw_view(image, input, options, layout, views[v], v);
+  const Scene scene = make_scene(input, options, layout);
+  for (std::size_t v = 0; v < views.size(); ++v) draw_view(image, input, options, layout, scene, views[v], v);
   if (options.bare) return image;
   draw_title(image, layout, input.title, legend.ink.strong);
   draw_legend(image, legend, layout.place(views.size()), layout.scale());

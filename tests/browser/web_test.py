@@ -55,6 +55,11 @@ class OnThePage(unittest.TestCase):
     def choose(self, name):
         self.page.wait(lambda: self.page.all("#file"))[0].send_keys(bench.path(name))
 
+    def submit_endless(self, name, points=3000000):
+        """A job that no worker gets to the end of, however slow the browser is."""
+        return bench.run("submit", bench.path("large.off"), "--points", str(points), "--directions", "sphere:1000000",
+                         "--name", name).strip()
+
     def submit_body(self, points, name):
         """From the list of jobs to the finished skeleton."""
         self.page.submit(bench.path("body.off"), points, name)
@@ -396,7 +401,7 @@ class Desktop(OnThePage):
 
     def test_several_jobs_are_cancelled_and_tell_the_time_left(self):
         page = self.page
-        ids = [bench.run("submit", bench.path("large.off"), "--points", str(3000000 + n), "--name", f"long {n}").strip() for n in range(2)]
+        ids = [self.submit_endless(f"long {n}", 3000000 + n) for n in range(2)]
         page.wait(lambda: all(page.all(f"#job-{job}") for job in ids))
         page.wait(lambda: any("left" in e.text and "per second" in e.text for e in page.all(".job .numbers")))
         for job in ids:
@@ -556,8 +561,7 @@ class Desktop(OnThePage):
         self.assertEqual(gone.returncode, 4)
 
     def test_cancels_and_resumes(self):
-        # A job that no worker gets to the end of by itself.
-        job = bench.run("submit", bench.path("large.off"), "--points", "3000000", "--name", "long").strip()
+        job = self.submit_endless("long")
         self.page.shown(f"#job-{job} a").click()
         self.page.heading("long")
         self.page.wait(lambda: self.page.shown(".badge").text == "running")

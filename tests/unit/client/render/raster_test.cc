@@ -20,8 +20,8 @@ TEST(ForEachSample, TwoTrianglesCoverASquareOnce) {
   const auto count = [&](int x, int y, double, double, double) { ++hits[std::size_t(y * 16 + x)]; };
   // The diagonal and all sides pass through sample centres.
   const ScreenPoint a{2.5, 2.5}, b{10.5, 2.5}, c{10.5, 10.5}, d{2.5, 10.5};
-  for_each_sample({a, b, c}, 16, 16, count);
-  for_each_sample({a, d, c}, 16, 16, count);  // the other orientation
+  for_each_sample({a, b, c}, 16, {0, 16}, count);
+  for_each_sample({a, d, c}, 16, {0, 16}, count);  // the other orientation
   int total = 0;
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) {
@@ -41,7 +41,7 @@ TEST(ForEachSample, ARandomFanCoversItsSquareOnce) {
     const ScreenPoint hub{place(random), place(random)};
     const std::array<ScreenPoint, 4> corners = {{{-3, -3}, {35, -3}, {35, 35}, {-3, 35}}};
     for (std::size_t e = 0; e < 4; ++e) {
-      for_each_sample({hub, corners[e], corners[(e + 1) % 4]}, 32, 32,
+      for_each_sample({hub, corners[e], corners[(e + 1) % 4]}, 32, {0, 32},
                       [&](int x, int y, double, double, double) { ++hits[std::size_t(y * 32 + x)]; });
     }
     for (const int hit : hits) ASSERT_EQ(hit, 1);
@@ -54,7 +54,7 @@ TEST(ForEachSample, WeightsAreBarycentric) {
     std::array<ScreenPoint, 3> p = corners;
     if (swapped) std::swap(p[0], p[1]);
     int samples = 0;
-    for_each_sample(p, 32, 32, [&](int x, int y, double w0, double w1, double w2) {
+    for_each_sample(p, 32, {0, 32}, [&](int x, int y, double w0, double w1, double w2) {
       ++samples;
       EXPECT_NEAR(w0 + w1 + w2, 1, 1e-12);
       EXPECT_NEAR(w0 * p[0].x + w1 * p[1].x + w2 * p[2].x, x + 0.5, 1e-9);
@@ -66,8 +66,8 @@ TEST(ForEachSample, WeightsAreBarycentric) {
 
 TEST(ForEachSample, DrawsNothingForDegenerateOrDistantTriangles) {
   const auto fail = [](int, int, double, double, double) { FAIL(); };
-  for_each_sample({{{1, 1}, {5, 5}, {9, 9}}}, 16, 16, fail);
-  for_each_sample({{{100, 1}, {1e9, 5}, {120, 9}}}, 16, 16, fail);
+  for_each_sample({{{1, 1}, {5, 5}, {9, 9}}}, 16, {0, 16}, fail);
+  for_each_sample({{{100, 1}, {1e9, 5}, {120, 9}}}, 16, {0, 16}, fail);
 }
 
 constexpr View kFront{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
@@ -273,6 +273,37 @@ TEST(Panel, CurvesAreLinesOfTheirWidthSeenFromAnySide) {
     from_end.draw_curves(points, {{0, 1}}, {kRed, kBlue}, width);
     EXPECT_LT(from_end.resolve().at(10, 10).g, 0.3f);
   }
+}
+
+TEST(Panel, BandsMakeTheWholePicture) {
+  const core::Mesh ball = core::make_sphere(60, 320);
+  const std::vector<core::Vec3> normals = corner_normals(ball);
+  const std::vector<Rgb> colours(ball.triangles.size(), kBlue);
+  const auto draw = [&](Panel& panel) {
+    panel.draw_ball({{20, 0, 10}, kRed}, 40);
+    panel.draw_ellipsoid({{-20, 5, 0}, kBlue}, {{{30, 0, 10}, {0, 20, 0}, {0, 0, 70}}});
+    panel.draw_curves({{-80, -70, -150}, {80, -70, 150}}, {{0, 1}}, {kRed, kBlue}, 3);
+    panel.draw_surface(ball, normals);
+    panel.draw_shell(ball, normals, colours, 0.3f);
+  };
+  constexpr int kWidth = 200, kHeight = 401;
+  Panel whole(kWidth, kHeight, kFront, {0, 0, 0}, 1);
+  draw(whole);
+  const Image expected = whole.resolve();
+  Panel panel = Panel::banded(kWidth, kHeight, kFront, {0, 0, 0}, 1);
+  int rows = 0, bands = 0;
+  do {
+    draw(panel);
+    const Image band = panel.resolve();
+    ASSERT_EQ(panel.top(), rows);
+    for (int y = 0; y < band.height(); ++y) {
+      for (int x = 0; x < kWidth; ++x) ASSERT_EQ(band.at(x, y), expected.at(x, rows + y)) << x << "," << y;
+    }
+    rows += band.height();
+    ++bands;
+  } while (panel.next_band());
+  EXPECT_EQ(rows, kHeight);
+  EXPECT_EQ(bands, 3);
 }
 
 TEST(Panel, SurfaceLayersDoNotDependOnTheirOrder) {
