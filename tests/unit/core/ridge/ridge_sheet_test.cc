@@ -85,7 +85,7 @@ TEST(RidgeSheet, OfANoisyPlateWithAHoleLiesInItsMiddle) {
   };
   const double h = 0.02;
   const Mesh mesh = mesh_zero_set(plate, {{-0.7, -0.7, -0.3}, {0.7, 0.7, 0.3}, 0.05});
-  const ErodedSolid noisy(perturb(mesh, {.sigma = 0.01, .seed = 2}), axes(h), "triangles");
+  const ErodedSolid noisy(perturb(mesh, {.sigma = 0.01, .seed = 2}), axes(h), "sphere:500");
   ASSERT_TRUE(noisy.solid.self_intersecting);
   const RidgeSheet sheet = ridge_sheet(noisy.solid, noisy.lattice, noisy.field);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 1, 0}));
