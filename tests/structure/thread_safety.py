@@ -2,7 +2,7 @@
 
 Marked members are private, so the files that can touch them are those that mark some themselves, that include a
 header which does, or that see one of their own folder.  These are looked at as compile_commands.json says they are
-compiled, a few of a folder at once, and each alone where these have faults; files with coroutines are left out.
+compiled, twenty at once, and fewer where these have faults; files with coroutines are left out.
 
 Usage: thread_safety.py PROJECT BUILD CLANG++    Exit code 1, and Clang's words, for each that breaks a rule.
 """
@@ -19,7 +19,7 @@ from include_arrows import INCLUDE, INCLUDE_DIRS  # noqa: E402
 
 TOPS = ("proto/", "server/", "worker/", "client/")
 MARK = "ABSL_GUARDED_BY("
-BATCH = 12  # files
+BATCH = 20  # files
 
 
 def included_files(project, path):
@@ -95,18 +95,20 @@ def analyse(project, build, clang):
         return ended.stderr if ended.returncode != 0 else ""
 
     def words_by_path(entry, paths):
-        if not words_about(entry, paths):
-            return dict.fromkeys(paths, "")
-        return {path: words_about(entry, [path]) for path in paths}
+        words = words_about(entry, paths)
+        if not words or len(paths) == 1:
+            return dict.fromkeys(paths, words)
+        half = len(paths) // 2  # faults, or names that two files have, each for itself
+        return words_by_path(entry, paths[:half]) | words_by_path(entry, paths[half:])
 
     chosen = {}  # a source of several programs is looked at once
     for entry in entries:
         for path in sources_of(project, entry):
             if path not in chosen and is_chosen(path):
                 chosen[path] = entry
-    alike = {}  # those of a folder that are compiled alike: what they include is read once for a few
-    for path, entry in chosen.items():
-        key = os.path.dirname(path), entry["directory"], *analysis(entry, clang)
+    alike = {}  # those of a top-level folder that are compiled alike: what they include is read once for many
+    for path, entry in sorted(chosen.items(), key=lambda one: one[0]):
+        key = path.split("/")[0], entry["directory"], *analysis(entry, clang)
         alike.setdefault(key, (entry, []))[1].append(path)
     batches = [(entry, paths[first:first + BATCH])
                for entry, paths in alike.values() for first in range(0, len(paths), BATCH)]
