@@ -13,6 +13,10 @@ namespace {
 // Where the solid grows thinner outwards ways there are longer, by up to this, squares: closing would move rims out.
 constexpr double kStep = 1.5;
 
+// Of several squares at an edge those below so many times `low` stand on the others.  Of 1, 1.5 and 2 this left the fewest
+// edges with three squares in twelve bodies: 74, 30, 44.
+constexpr double kStanding = 1.5;
+
 class Selection {
  public:
   Selection(const CrossedSquares& squares, double low)
@@ -67,7 +71,7 @@ class Selection {
     for_each_edge([&](std::span<const Side> sides) {
       if (sides.size() <= 2) return;
       for (const Side& side : sides)
-        if (squares_.strength[side.square] < low_) taken_[side.square] = 0;
+        if (squares_.strength[side.square] < kStanding * low_) taken_[side.square] = 0;
     });
   }
 

@@ -24,8 +24,9 @@ struct SurfaceSquares {
 
 /// The squares that the ridge surface is made of.
 /// 1. Those with a vertex of s >= low.
-/// 2. Without those that stand on others: weaker crossings that would be the third or fourth at an edge.  Where a limb is
-///    nearly round, e turns from point to point, and weak crossings beside a strip borrow the strength of its vertices.
+/// 2. Without those that stand on others: crossings below 1.5 low that would be the third or fourth at an edge.  Where a
+///    limb is nearly round, e turns from point to point, and weak crossings beside a strip borrow the strength of its
+///    vertices.
 /// 3. With the weaker ones in gaps between them: morphological closing along the surface (Serra 1982).  What is nearer to
 ///    strong squares than `gap`, and farther than that, by a square and a half, from what is not, or from where the surface
 ///    ends.

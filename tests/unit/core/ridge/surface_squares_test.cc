@@ -105,9 +105,9 @@ TEST(SurfaceSquares, AreTheMoreTheLowerTheBound) {
   }
 }
 
-// The third square at an edge is one of the surface's branches if its own crossing is strong.
+// The third square at an edge is one of the surface's branches if its own crossing is clearly strong.
 TEST(SurfaceSquares, LeaveOutWeakOnesThatStandOnOthers) {
-  for (const double own : {kWeak, kStrong}) {
+  for (const double own : {kWeak, 1.4 * kLowBound, kStrong}) {
     SquarePlane plane;
     plane.strengthen(17, 4, 17);
     std::fill(plane.strength.begin(), plane.strength.end(), kStrong);
