@@ -26,10 +26,15 @@ bool is_one_of(std::span<const FileFormat> formats, FileFormat format) {
   return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
+// What alpha and barriers are of has triangles.
+Form form_of(const FetchRequest& request) {
+  const bool of_triangles = request.alpha > 0 || request.barrier || request.min_barrier > 0;
+  return request.form == Form::kByExtension && of_triangles ? Form::kSurface : request.form;
+}
+
 // A sheet wherever triangles have a place; of points an alpha shape where nothing else has one.
 bool wants_complex(const FetchRequest& request, const v1::SkeletonParams& params, FileFormat format) {
-  if (request.form != Form::kByExtension) return request.form == Form::kSurface;
-  if (request.alpha > 0 || request.barrier || request.min_barrier > 0) return true;
+  if (const Form form = form_of(request); form != Form::kByExtension) return form == Form::kSurface;
   return is_one_of(surface_formats(), format) &&
          (wire::gives_sheet(params.operator_()) || !is_one_of(skeleton_formats(), format));
 }
@@ -158,7 +163,7 @@ Fetched fetch_armature(Session& session, const FetchRequest& request, ShapeOutpu
 }  // namespace
 
 Fetched fetch_skeleton(Session& session, const FetchRequest& request) {
-  ShapeOutput output(request.destination, formats_of(request.form), "skeleton");
+  ShapeOutput output(request.destination, formats_of(form_of(request)), "skeleton");
   const ChosenSkeleton chosen = choose_skeleton(session, request.job, request.skeleton);
   return wants_complex(request, chosen.params, output.format())
              ? fetch_complex(session, request, chosen, output)

@@ -79,6 +79,13 @@ struct Made {
   nlohmann::ordered_json facts = nlohmann::ordered_json::object();
 };
 
+// Of v0, of the eroded solid that is drawn, too; 0: none.
+double level_member(const nlohmann::json& body) {
+  const double level = number_member(body, "fraction");
+  if (level < 0) throw ClientError(ExitCode::kUsage, "the level must be a share of v0 above 0 and below 1");
+  return level;
+}
+
 // @param look of the picture: what options say beside the skeleton.
 std::shared_ptr<const Picture> drawn(WebState& web, Session& server, const v1::Job& job,
                                      const PictureOptions& options, const std::string& look) {
@@ -99,7 +106,7 @@ Made make_picture(WebState& web, Session& server, const nlohmann::json& body, co
   options.skeleton = skeleton_member(body);
   options.render.width = kPictureWidth;
   options.render.background = parse_background(background);
-  options.level = number_member(body, "fraction");
+  options.level = level_member(body);
   Made made{finished_job(server, job), {}};
   const auto picture =
       drawn(web, server, made.job, options, background + " " + std::to_string(options.level));
@@ -118,7 +125,7 @@ Made make_view(Session& server, const nlohmann::json& body, const std::string& j
     const v1::Job other = finished_job(server, beside);
     subjects.push_back({other, skeleton_params(skeleton, other)});
   }
-  Page page = make_page(server, subjects, {{}, number_member(body, "fraction")});
+  Page page = make_page(server, subjects, {{}, level_member(body)});
   write_whole(path, page.html);
   made.notices = std::move(page.notices);
   return made;

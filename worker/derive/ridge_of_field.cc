@@ -21,7 +21,8 @@ core::RidgeSheet RidgeOfField::sheet(double threshold) const {
   return core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), options);
 }
 
-void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const {
+void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message,
+                                  bool cut) const {
   v1::LatticeTopology& lattice = *message.mutable_lattice();
   lattice.set_components(sheet.lattice.components);
   lattice.set_holes(sheet.lattice.holes);
@@ -40,7 +41,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   kept.components -= sheet.fragments;
   const core::BettiNumbers of_solid{message.solid_components(), solid, message.solid_cavities()};
   set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid), message);
-  if (!message.advice().empty()) return;
+  if (!message.advice().empty() || cut) return;
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
   set_advice(core::small_skeleton_advice(field_.lattice(), basis_.radius, vertices), message);
 }

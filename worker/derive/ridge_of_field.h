@@ -22,7 +22,8 @@ class RidgeOfField {
 
   /// What the report of a skeleton on this ridge tells of the lattice: its topology, and where it is too coarse for
   /// the solid, so that the skeleton lacks or adds something.
-  void report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message) const;
+  /// @param cut whether parts of the sheet were asked to be left out: then it may be small on any lattice.
+  void report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message, bool cut = false) const;
 
  private:
   const FinishedField& field_;

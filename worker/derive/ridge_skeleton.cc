@@ -1,5 +1,8 @@
 #include "derive/ridge_skeleton.h"
 
+#include <cstdint>
+#include <vector>
+
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
 #include "core/shocks/shock_operator.h"
@@ -31,19 +34,18 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
   v1::SkeletonQuality message =
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(low);
-  ridge.report_lattice(sheet, message);
+  ridge.report_lattice(sheet, message, barriers.cut);
   message.set_limbs(sheet.limbs);
   return message;
 }
 
-// By the default curve, at every threshold.
-void add_parts(const FinishedField& field, const RidgeOfField& ridge, const core::RidgeSheet& sheet,
-               double threshold, v1::TriangleMesh& message) {
+// Of the sample points, by the default curve at every threshold.
+std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfField& ridge,
+                                    const core::RidgeSheet& sheet, double threshold) {
   const core::RidgeSheet whole = threshold == 0 ? core::RidgeSheet() : ridge.sheet(0);
   const CurveOfField curves(field, ridge, threshold == 0 ? sheet : whole);
   const core::CurveSkeleton curve = curves.at(0);
-  const std::vector<std::uint32_t> parts = parts_of_points(curve, curves.graph_of(curve));
-  for (const core::SheetVertex& vertex : sheet.vertices) message.add_part(parts[vertex.point]);
+  return parts_of_points(curve, curves.graph_of(curve));
 }
 
 }  // namespace
@@ -61,13 +63,14 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   const double threshold = params.skeleton().threshold();
   const RidgeOfField ridge(field);
   core::RidgeSheet sheet = ridge.sheet(threshold);
+  const std::vector<std::uint32_t> parts = parts_of(field, ridge, sheet, threshold);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
   append_vertices(field, sheet, message);
   message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
   append_segments(sheet, message);
-  add_parts(field, ridge, sheet, threshold, message);
+  for (const core::SheetVertex& vertex : sheet.vertices) message.add_part(parts[vertex.point]);
   *message.mutable_quality() = quality_of(field, ridge, sheet, threshold, barriers);
   return message;
 }

@@ -20,9 +20,8 @@ using Face = SurfaceMesh::Face_index;
 
 constexpr double kPlane = 1e-6;  // of the loop's length: farther from its plane it is not plane
 
-// Time grows with the square of a loop's edges (two of 20,000 take 18 s), and with their cube where Delaunay's
-// triangulation has no answer.
-constexpr std::uint64_t kMaxEdges = 20'000, kMaxCubic = 500;
+// Where Delaunay's triangulation has no answer time grows with the cube of a loop's edges.
+constexpr std::uint64_t kMaxCubic = 500;
 
 struct Loop {
   Halfedge edge;
@@ -147,7 +146,7 @@ FilledHoles fill_holes(const Mesh& mesh, const FillHolesOptions& options) {
   FilledHoles filled;
   for (Loop& loop : loops_of(surface)) {
     throw_if_stopped(options.context);
-    if (loop.hole.length <= options.longest && loop.hole.edges <= kMaxEdges)
+    if (loop.hole.length <= options.longest && loop.hole.edges <= kMaxHoleEdges)
       fill(surface, loop, options.context);
     filled.holes.push_back(loop.hole);
   }

@@ -8,6 +8,9 @@
 
 namespace affskel::core {
 
+/// Time grows with the square of a loop's edges: two of so many take 18 s.
+inline constexpr std::uint64_t kMaxHoleEdges = 20'000;
+
 struct FillHolesOptions {
   double longest = 0;                   ///< boundary loops up to this length are filled, mesh units
   ExecutionContext* context = nullptr;  ///< asked within holes, too, whether to stop
@@ -30,7 +33,7 @@ struct FilledHoles {
 };
 
 /// Fills holes by CGAL: a plane loop by a plane cut, any other by the triangulation of least area and bending that is
-/// refined to the density of its rim and faired (Liepa 2003; Zou, Ju & Carr 2013).  Loops of more than 20,000 edges, and
+/// refined to the density of its rim and faired (Liepa 2003; Zou, Ju & Carr 2013).  Loops of more than kMaxHoleEdges, and
 /// those that nothing fills, are left.
 /// @param mesh manifold, its triangles agreeing.
 /// @throws CoreError kCancelled when the context asks to stop.

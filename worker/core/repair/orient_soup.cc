@@ -2,7 +2,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 
@@ -84,8 +83,7 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   PMP::orient_polygon_soup(soup.points, soup.triangles);
   oriented.turned = turned_since(before, soup);
   oriented.separated_points = soup.points.size() - points;
-  SurfaceMesh surface;
-  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
+  SurfaceMesh surface = surface_mesh_of(core_mesh(soup));
   oriented.stitched_edges = PMP::stitch_borders(surface);
   oriented.mesh = mesh_of(surface);
   return oriented;

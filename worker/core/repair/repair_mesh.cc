@@ -109,8 +109,8 @@ class Mending {
                short_text(100 * added / (area + added)) + " % of the surface");
     }
     if (left > 0) {
-      // What is short enough could not be filled: no greater length helps.
-      const bool too_long = longest_left->length > longest_;
+      // What is short enough could not be filled, nor what has too many edges: no greater length helps.
+      const bool too_long = longest_left->length > longest_ && longest_left->edges <= kMaxHoleEdges;
       result_.longest_left = too_long ? longest_left->length : 0;
       const std::string of_all = count > 0 ? " of " + std::to_string(count + left) : "";
       result_.left = base::counted(left, "hole") + of_all + (left == 1 ? " is" : " are") +
@@ -220,6 +220,11 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
     throw CoreError(CoreError::Code::kBadInput, "a wrap by alpha " + short_text(options.alpha) +
                                                     " would be too fine; take " + short_text(1.01 * finest) +
                                                     " or more");
+  }
+  if (options.alpha > diagonal(mesh)) {
+    throw CoreError(CoreError::Code::kBadInput, "a wrap by alpha " + short_text(options.alpha) +
+                                                    " would be a box round all of it; take " +
+                                                    short_text(0.1 * diagonal(mesh)) + " or less");
   }
   AlphaWrapOptions wrap;
   wrap.context = options.context;

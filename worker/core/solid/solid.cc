@@ -321,6 +321,8 @@ class SolidBuilder {
              base::rounded(size.box.longest_side() * solid_.scale(), 3) + " long, the whole mesh " +
              base::rounded(extent(), 3) + "; take them one by one");
     }
+    if (std::isnan(volume))
+      refuse("the mesh is too large or too thin: " + which + " has a volume out of range");
     refuse("the mesh bounds no volume: " + which + " has volume " + base::to_text(volume) +
            (volume > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
   }

@@ -66,6 +66,21 @@ TEST(RepairMesh, LeavesASoundMeshAsItIs) {
 }
 
 // A side that is divided beside ones that are not.
+// So many triangles at a point took minutes, and would time out.
+TEST(RepairMesh, LeavesAConeOfManyTrianglesAsItIs) {
+  const Mesh cone = make_cone(3, 2, 200'000);
+  const RepairedMesh repaired = repair_mesh(cone, {});
+  EXPECT_EQ(repaired.mesh.points, cone.points);
+  EXPECT_EQ(repaired.mesh.triangles, cone.triangles);
+}
+
+TEST(RepairMesh, RefusesAWrapThatWouldBeABox) {
+  const Mesh box = make_box(3, 2, 1);
+  EXPECT_EQ(repair_mesh(box, {.kind = RepairKind::kWrap, .alpha = 3}).left, "");
+  for (const double alpha : {4.0, 1e300})
+    EXPECT_THROW(repair_mesh(box, {.kind = RepairKind::kWrap, .alpha = alpha}), CoreError);
+}
+
 TEST(RepairMesh, JoinsAtTJunctions) {
   const auto has_z = [](const Mesh& mesh, const Triangle& t, double z) {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.points[v].z == z; });

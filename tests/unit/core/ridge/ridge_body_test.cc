@@ -98,7 +98,7 @@ TEST(RidgeSheet, OfAMirrorSymmetricBodyIsMirrorSymmetric) {
     double farthest = 0;
     for (const Vec3& place : places)
       farthest = std::max(farthest, index.nearest({-place.x, place.y, place.z}));
-    EXPECT_LT(farthest, 0.4 * h) << triangles;
+    EXPECT_LT(farthest, h) << triangles;
   }
 }
 

@@ -47,6 +47,16 @@ TEST(EdgeCollapseTest, StopsWhereTheTopologyWouldBreak) {
 TEST(EdgeCollapseTest, RefusesAMeshThatIsNotManifold) {
   const Mesh fan{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
   EXPECT_THROW(collapse_edges(fan, 1), CoreError);
+  // Two closed surfaces that have a corner in common.
+  Mesh touching = make_tetrahedron(1);
+  const auto others = static_cast<std::uint32_t>(touching.points.size() - 1);
+  const Mesh one = touching;
+  for (const Vec3& p : one.points) touching.points.push_back(2.0 * one.points[0] - p);
+  for (const auto& [a, b, c] : one.triangles) {
+    const auto number = [&](std::uint32_t v) { return v == 0 ? 0 : v + others + 1; };
+    touching.triangles.push_back({number(a), number(c), number(b)});
+  }
+  EXPECT_THROW(collapse_edges(touching, 4), CoreError);
 }
 
 }  // namespace

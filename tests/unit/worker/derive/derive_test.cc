@@ -183,6 +183,17 @@ TEST_F(DeriveTest, ALeastBarrierCutsTheSheet) {
   EXPECT_EQ(empty.quality().to_try(0).name(), "min_barrier");
 }
 
+// Parts are those of the whole sheet, of which nothing may be left: in the plane of symmetry barriers are 0.
+TEST_F(DeriveTest, ALeastBarrierMayCutAllOfARidge) {
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  lease.mutable_surface()->set_barrier(true);
+  lease.mutable_surface()->set_min_barrier(1e6);
+  const v1::TriangleMesh empty = parsed<v1::TriangleMesh>(run(lease));
+  EXPECT_EQ(empty.corners_size(), 0);
+  EXPECT_EQ(empty.part_size(), empty.erosion_size());
+}
+
 TEST_F(DeriveTest, ARidgeHasNoThresholdAboveTheLast) {
   const v1::SkeletonPoints points = skeleton(v1::OPERATOR_RIDGE, 700);
   EXPECT_EQ(points.quality().threshold(), 700);

@@ -181,11 +181,15 @@ MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) 
   const VoxelImage image = parse_voxels(bytes, options.beside);
   if (!options.isovalue) {
     const auto [least, greatest] = value_range(image);
+    const std::string what = "is an image of " + std::to_string(image.size[0]) + " x " +
+                             std::to_string(image.size[1]) + " x " + std::to_string(image.size[2]) +
+                             " voxels";
     throw CoreError(
         CoreError::Code::kBadInput,
-        "is an image of " + std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
-            std::to_string(image.size[2]) + " voxels with values from " + base::rounded(least, 6) + " to " +
-            base::rounded(greatest, 6) + "; the isovalue, which they have at the surface, must be given");
+        least == greatest
+            ? what + " that all have the value " + base::rounded(least, 6) + ": there is no surface"
+            : what + " with values from " + base::rounded(least, 6) + " to " + base::rounded(greatest, 6) +
+                  "; the isovalue, which they have at the surface, must be given");
   }
   Isosurface surface = isosurface(image, {.isovalue = *options.isovalue, .context = options.context});
   MeshFile file{"voxels", false, {}, {}};
