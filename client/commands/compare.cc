@@ -80,7 +80,7 @@ void add_compare(CommandLine& line) {
       ->check(non_empty())
       ->type_name("FILE");
   command->add_option("--samples", o.samples, "Points to spread over each surface")
-      ->check(whole_number(1, 100000000))
+      ->check(whole_number(1, 10000000))
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--plot", options->request.plot, "Write the curves as a plot (.svg)")

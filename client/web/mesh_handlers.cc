@@ -179,6 +179,7 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
   inspection.facts["file"] = name;
   for (auto& note : inspection.facts["notes"]) steps.push_back(std::move(note));
   inspection.facts["notes"] = std::move(steps);
+  inspection.facts.erase("surfaces");  // the page shows none of them, and 250,000 are 24 MB
   nlohmann::ordered_json answer = {{"name", name}, {"facts", inspection.facts}};
   if (input.off.mesh.triangles.size() <= kMaxDrawn && !input.off.mesh.triangles.empty())
     answer["picture"] = picture_of(call, input, name);
