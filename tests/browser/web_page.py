@@ -72,6 +72,10 @@ class Visitor:
         """The first element of that kind that is seen, once there is one."""
         return self.wait(lambda: next((e for e in self.all(selector) if e.is_displayed()), None), selector)
 
+    def click(self, selector):
+        """On the first such element that is seen, of the page as it is then: it may be written anew meanwhile."""
+        self.wait(lambda: self.shown(selector).click() is None, selector)
+
     def heading(self, text):
         self.wait(lambda: any(e.text == text for e in self.all("h1")), text)
 
@@ -105,13 +109,13 @@ class Visitor:
 
     def submit(self, mesh, points, name):
         """From the list of jobs to the page of the new one."""
-        self.shown("main a[href='#new']").click()
+        self.click("main a[href='#new']")
         self.heading("New job")
         self.wait(lambda: self.all("#file"))[0].send_keys(mesh)
         self.picture_is_drawn("#found img")
         self.type("#points", points)
         self.type("#name", name)
-        self.shown("#submit").click()
+        self.click("#submit")
         self.heading(name)
 
     def skeleton_is_drawn(self):

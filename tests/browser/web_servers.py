@@ -33,6 +33,12 @@ class Bench:
         return subprocess.run([self.client, "--quiet", *arguments], env=self.environment, check=True,
                               stdout=subprocess.PIPE, text=True).stdout
 
+    def drop(self, job):
+        """Cancels and deletes it, whatever became of it."""
+        for command in ("cancel", "delete"):
+            subprocess.run([self.client, "--quiet", command, job], env=self.environment, check=False,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
     def close(self):
         pid = json.loads(self.run("--json", "server-info"))["pid"]
         os.kill(pid, signal.SIGTERM)

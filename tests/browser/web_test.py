@@ -56,9 +56,11 @@ class OnThePage(unittest.TestCase):
         self.page.wait(lambda: self.page.all("#file"))[0].send_keys(bench.path(name))
 
     def submit_endless(self, name, points=3000000):
-        """A job that no worker gets to the end of, however slow the browser is."""
-        return bench.run("submit", bench.path("large.off"), "--points", str(points), "--directions", "sphere:1000000",
-                         "--name", name).strip()
+        """A job that no worker gets to the end of, however slow the browser is; it does not outlive the test."""
+        job = bench.run("submit", bench.path("large.off"), "--points", str(points), "--directions", "sphere:1000000",
+                        "--name", name).strip()
+        self.addCleanup(bench.drop, job)
+        return job
 
     def submit_body(self, points, name):
         """From the list of jobs to the finished skeleton."""
@@ -70,7 +72,7 @@ class Desktop(OnThePage):
     def test_from_a_mesh_to_its_skeleton(self):
         page = self.page
         page.screenshot("desktop-1-jobs")
-        page.shown("a.button[href='#new']").click()
+        page.click("a.button[href='#new']")
         page.heading("New job")
         self.choose("large.off")
         page.picture_is_drawn("#found img")
@@ -105,7 +107,7 @@ class Desktop(OnThePage):
         page.find("#points").send_keys("100000")
         self.assertEqual(page.find("#points").get_attribute("value"), "100000")
         page.type("#name", "Subject <b>7</b> ü")
-        page.shown("#submit").click()
+        page.click("#submit")
         page.heading("Subject <b>7</b> ü")
         page.wait(lambda: page.shown(".badge").text == "done")
         self.assertNotIn("key=", page.driver.current_url)
@@ -125,7 +127,7 @@ class Desktop(OnThePage):
         page.screenshot("desktop-3-from-the-side")
         page.find("#stance option[value='shape']").click()
         page.wait(lambda: "stance" not in json.loads(bench.run("--json", "status", job)))
-        page.shown("#history summary").click()
+        page.click("#history summary")
         happened = page.wait(lambda: [line.text for line in page.all(".history li")])
         self.assertIn("submitted", happened[0])
         # The picture's sheet was made after it.
@@ -148,7 +150,7 @@ class Desktop(OnThePage):
     def test_other_parameters(self):
         self.submit_body(3000, "parameters")
         job = self.page.driver.current_url.split("/")[-1]
-        self.page.shown("summary").click()
+        self.page.click("summary")
         self.page.type("#download-threshold", 3)
         self.page.find("button[data-file='skeleton.csv']").click()
         here = self.page.downloaded("parameters.skeleton.csv")
@@ -163,16 +165,16 @@ class Desktop(OnThePage):
 
     def test_the_infimum_over_all_directions(self):
         page = self.page
-        page.shown("a.button[href='#new']").click()
+        page.click("a.button[href='#new']")
         page.heading("New job")
         self.choose("body.off")
         page.picture_is_drawn("#found img")
         page.type("#points", 1500)
         page.type("#name", "infimum")
-        page.shown("summary").click()
-        page.shown("#minimum option[value='infimum']").click()
+        page.click("summary")
+        page.click("#minimum option[value='infimum']")
         page.screenshot("desktop-2-infimum")
-        page.shown("#submit").click()
+        page.click("#submit")
         page.heading("infimum")
         page.wait(lambda: page.shown(".badge").text == "done")
         job = page.driver.current_url.split("/")[-1]
@@ -184,7 +186,7 @@ class Desktop(OnThePage):
     def test_wrong_parameters_are_refused_beside_their_fields(self):
         page = self.page
         self.submit_body(3000, "wrong")
-        page.shown("summary").click()
+        page.click("summary")
         page.type("#download-threshold", -3)
         page.find("button[data-file='skeleton.csv']").click()
         refusal = "The threshold must be a number above 0"
@@ -205,13 +207,13 @@ class Desktop(OnThePage):
         page.find("#download-threshold").click()
         page.wait(lambda: any("threshold 3" in e.text for e in page.all(".card [role=status]")))
         with_level = page.find("img.picture").get_attribute("src")
-        page.shown("#interactive").click()
+        page.click("#interactive")
         page.driver.switch_to.frame(page.shown("dialog iframe"))
         page.wait(lambda: page.script("return window.affskel && affskel.state().erodedShown?.[0] > 0"))
         self.assertAlmostEqual(page.script("return affskel.state().level"), 0.125)
         page.driver.switch_to.default_content()
         page.screenshot("desktop-16-level")
-        page.shown("#close-interactive").click()
+        page.click("#close-interactive")
         page.wait(lambda: not page.all("dialog"))
         page.find("#download-level").clear()
         page.find("#download-threshold").click()
@@ -224,7 +226,7 @@ class Desktop(OnThePage):
         page = self.page
         self.submit_body(2000, "closed")
         for close in ("back", "escape", "escape within"):
-            page.shown("#interactive").click()
+            page.click("#interactive")
             frame = page.shown("dialog iframe")
             page.driver.switch_to.frame(frame)
             page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
@@ -242,7 +244,7 @@ class Desktop(OnThePage):
     def test_the_threshold_changes_while_the_view_is_turned(self):
         page = self.page
         self.submit_body(20000, "threshold")
-        page.shown("#interactive").click()
+        page.click("#interactive")
 
         def within(script):
             page.driver.switch_to.frame(page.shown("dialog iframe"))
@@ -252,7 +254,7 @@ class Desktop(OnThePage):
 
         usual = within("affskel.state().skeletonShown")
         page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.shown("#view-side").click()
+        page.click("#view-side")
         page.wait(lambda: "view=side" in page.script("return location.hash"))
         page.driver.switch_to.default_content()
         page.type("#view-threshold", 1)
@@ -275,27 +277,27 @@ class Desktop(OnThePage):
         page = self.page
         self.submit_body(3000, "first")
         first = page.driver.current_url.split("/")[-1]
-        page.shown("#again").click()
+        page.click("#again")
         page.heading("New job")
         page.picture_is_drawn("#found img")
         self.assertEqual(page.find("#name").get_attribute("value"), "first")
         page.wait(lambda: page.find("#points").get_attribute("value") == "3000")  # as that job was asked for
-        page.shown("#submit").click()
+        page.click("#submit")
         page.wait(lambda: "The same was submitted before" in page.text())
         page.type("#points", 2000)
-        page.shown("#submit").click()
+        page.click("#submit")
         page.heading("first")
         page.skeleton_is_drawn()
         self.assertNotEqual(page.driver.current_url.split("/")[-1], first)
-        page.shown("#beside").click()
+        page.click("#beside")
         page.wait(lambda: page.all(f"#beside option[value='{first}']"))[0].click()
-        page.shown("#interactive").click()
+        page.click("#interactive")
         page.driver.switch_to.frame(page.shown("dialog iframe"))
         page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown"))
         self.assertEqual(page.script("return affskel.state().shown.length"), 2)
         page.driver.switch_to.default_content()
         page.screenshot("desktop-9-beside")
-        page.shown("#close-interactive").click()
+        page.click("#close-interactive")
 
     def test_again_asks_for_what_the_job_was_asked_for(self):
         page = self.page
@@ -307,18 +309,18 @@ class Desktop(OnThePage):
                   for name in ("spacing", "directions", "how-many", "frame", "minimum", "operator")}
         self.assertEqual(values, {"spacing": "12.5", "directions": "triangles+sphere", "how-many": "200", "frame": "pca",
                                   "minimum": "infimum", "operator": "chords"})
-        page.shown("#submit").click()
+        page.click("#submit")
         page.wait(lambda: "The same was submitted before" in page.text())
 
     def test_a_repaired_mesh_is_kept_as_it_came(self):
         page = self.page
-        page.shown("a.button[href='#new']").click()
+        page.click("a.button[href='#new']")
         self.choose("open.off")
-        page.shown("#fill-holes").click()
+        page.click("#fill-holes")
         page.picture_is_drawn("#found img")
         self.assertLessEqual(page.find("#submit").rect["y"] + page.find("#submit").rect["height"], self.window["height"])
         page.type("#points", 2000)
-        page.shown("#submit").click()
+        page.click("#submit")
         page.heading("open")
         page.skeleton_is_drawn()
         self.assertIn("1 hole filled", page.text())
@@ -326,7 +328,7 @@ class Desktop(OnThePage):
         with open(bench.path("open.off"), encoding="ascii") as came:
             self.assertEqual(bench.run("fetch", job, "source", "-o", "-"), came.read())
         self.assertTrue(page.all("[data-file='source.off']"))
-        page.shown("#interactive").click()
+        page.click("#interactive")
         page.driver.switch_to.frame(page.shown("dialog iframe"))
         page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown"))
         self.assertTrue(page.shown("#show-marks").is_selected())
@@ -345,7 +347,7 @@ class Desktop(OnThePage):
 
     def test_several_files_become_a_job_each(self):
         page = self.page
-        page.shown("a.button[href='#new']").click()
+        page.click("a.button[href='#new']")
         with open(bench.path("nothing.off"), "w", encoding="ascii"):
             pass
         page.wait(lambda: page.all("#file"))[0].send_keys(
@@ -388,7 +390,7 @@ class Desktop(OnThePage):
         page = self.page
         with open(bench.path("box.off"), encoding="ascii") as file:
             text = file.read()
-        page.shown("a.button[href='#new']").click()
+        page.click("a.button[href='#new']")
         page.heading("New job")
         self.drop([("alone.off", text)])
         page.wait(lambda: page.all("#name") and page.find("#name").get_attribute("value") == "alone")
@@ -405,12 +407,10 @@ class Desktop(OnThePage):
         page.wait(lambda: all(page.all(f"#job-{job}") for job in ids))
         page.wait(lambda: any("left" in e.text and "per second" in e.text for e in page.all(".job .numbers")))
         for job in ids:
-            page.find(f"#job-{job} input").click()
-        page.shown("#cancel-selected").click()
-        page.shown("dialog .danger").click()
+            page.click(f"#job-{job} input")
+        page.click("#cancel-selected")
+        page.click("dialog .danger")
         page.wait(lambda: all(page.find(f"#job-{job} .badge").text == "cancelled" for job in ids))
-        for job in ids:
-            bench.run("delete", job)
 
     def test_a_job_that_is_deleted_meanwhile_is_told(self):
         page = self.page
@@ -428,7 +428,7 @@ class Desktop(OnThePage):
 
     def test_numbers_are_taken_as_they_are_typed(self):
         page = self.page
-        page.shown("a.button[href='#new']").click()
+        page.click("a.button[href='#new']")
         self.choose("box.off")
         page.wait(lambda: page.all("#spacing"))
         page.type("#spacing", "5,5")
@@ -465,12 +465,12 @@ class Desktop(OnThePage):
         for card in cards[:2]:
             page.find(card + " input").click()
         page.wait(lambda: "2 jobs selected" in page.text())
-        page.shown("#download-selected").click()
+        page.click("#download-selected")
         with zipfile.ZipFile(io.BytesIO(page.downloaded("affskel.zip"))) as archive:
             self.assertIsNone(archive.testzip())
             self.assertEqual(len(archive.namelist()), 8, archive.namelist())
-        page.shown("#delete-selected").click()
-        page.shown("dialog .danger").click()
+        page.click("#delete-selected")
+        page.click("dialog .danger")
         page.wait(lambda: not any(page.all(card) for card in cards[:2]))
         page.find("#search").clear()
         page.find("#search").send_keys(" ")
@@ -478,7 +478,7 @@ class Desktop(OnThePage):
 
     def test_turns_the_skeleton(self):
         self.submit_body(8000, "turned")
-        self.page.shown("#interactive").click()
+        self.page.click("#interactive")
         frame = self.page.shown("dialog iframe")
         self.page.driver.switch_to.frame(frame)
         state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
@@ -491,7 +491,7 @@ class Desktop(OnThePage):
         self.assertEqual(self.page.script("return window.origin"), "null", "in a sandbox of its own")
         self.page.driver.switch_to.default_content()
         self.page.screenshot("desktop-4-turned")
-        self.page.shown("#close-interactive").click()
+        self.page.click("#close-interactive")
         self.page.wait(lambda: not self.page.all("dialog"))
         self.assertEqual(self.page.script("return document.activeElement.id"), "interactive")
 
@@ -502,22 +502,22 @@ class Desktop(OnThePage):
                        for k in range(12) for j in range(12) for i in range(12))
         with open(bench.path("ct.nrrd"), "wb") as file:
             file.write(b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 12 12\nencoding: raw\n\n" + voxels)
-        self.page.shown("a.button[href='#new']").click()
+        self.page.click("a.button[href='#new']")
         self.choose("ct.nrrd")
         self.page.type("#isovalue", 100)
         self.assertEqual([e.text for e in self.page.all(".error") if e.is_displayed()], [], "it is no error")
         self.assertIn("values from 0 to 200", self.page.text())
         self.page.screenshot("desktop-14-voxels")
-        self.page.shown("#make-surface").click()
+        self.page.click("#make-surface")
         self.page.picture_is_drawn("#found img")
         self.assertIn("the solid is where values are above", self.page.find("#found").text)
         self.page.screenshot("desktop-15-surface")
         self.page.type("#points", 500)
-        self.page.shown("#submit").click()
+        self.page.click("#submit")
         self.page.heading("ct")
 
     def test_says_what_is_wrong_with_a_mesh(self):
-        self.page.shown("a.button[href='#new']").click()
+        self.page.click("a.button[href='#new']")
         self.choose("open.off")
         self.page.wait(lambda: "bounds no solid" in self.page.shown("#found").text)
         found = self.page.find("#found").text
@@ -526,7 +526,7 @@ class Desktop(OnThePage):
         self.page.picture_is_drawn("#found img")
         self.assertEqual(self.page.all("#submit"), [])
         self.page.screenshot("desktop-5-defects")
-        self.page.shown("#turn-mesh").click()
+        self.page.click("#turn-mesh")
         self.page.driver.switch_to.frame(self.page.shown("dialog iframe"))
         state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
         self.assertGreater(state["marked"], 2, "defects")
@@ -535,9 +535,9 @@ class Desktop(OnThePage):
             self.assertFalse(self.page.find(hidden).is_displayed(), hidden)
         self.page.driver.switch_to.default_content()
         self.page.screenshot("desktop-13-defects-turned")
-        self.page.shown("#close-interactive").click()
+        self.page.click("#close-interactive")
         self.page.wait(lambda: not self.page.all("dialog"))
-        self.page.shown("#wrap").click()
+        self.page.click("#wrap")
         self.page.wait(lambda: "wrapped by" in self.page.find("#found").text and self.page.all("#submit"))
         with open(bench.path("text.off"), "w", encoding="ascii") as file:
             file.write("this is no mesh\n")
@@ -548,12 +548,12 @@ class Desktop(OnThePage):
     def test_deletes_only_what_is_confirmed(self):
         self.submit_body(2000, "unloved")
         job = self.page.driver.current_url.split("/")[-1]
-        self.page.shown("#delete").click()
-        self.page.shown("dialog button").click()  # keep it
+        self.page.click("#delete")
+        self.page.click("dialog button")  # keep it
         self.page.wait(lambda: not self.page.all("dialog"))
         bench.run("status", job)
-        self.page.shown("#delete").click()
-        self.page.shown("dialog .danger").click()
+        self.page.click("#delete")
+        self.page.click("dialog .danger")
         self.page.heading("Jobs")
         self.page.wait(lambda: not self.page.all(f"#job-{job}"))
         gone = subprocess.run([CLIENT, "--quiet", "status", job], env=bench.environment, check=False,
@@ -567,17 +567,16 @@ class Desktop(OnThePage):
         self.page.wait(lambda: self.page.shown(".badge").text == "running")
         self.page.wait(lambda: "directions" in self.page.text())
         self.page.screenshot("desktop-6-running")
-        self.page.shown("#cancel").click()
-        self.page.shown("dialog .danger").click()
+        self.page.click("#cancel")
+        self.page.click("dialog .danger")
         self.page.wait(lambda: self.page.shown(".badge").text == "cancelled")
-        self.page.shown("#resume").click()
+        self.page.click("#resume")
         self.page.wait(lambda: self.page.shown(".badge").text in ("waiting", "running"))
         bench.run("cancel", job)
         self.page.wait(lambda: self.page.shown(".badge").text == "cancelled")
-        bench.run("delete", job)
 
     def test_administrators_see_the_server(self):
-        self.page.shown("#server-link").click()
+        self.page.click("#server-link")
         self.page.heading("Server")
         self.page.wait(lambda: "Throughput" in self.page.text() and self.page.all("tbody th"))
         self.assertIn("Free on its disk", self.page.text())
@@ -626,11 +625,11 @@ class SigningIn(unittest.TestCase):
         self.assertFalse(page.find("#server-link").is_displayed())
         page.submit(bench.path("body.off"), 20000, "body of ada")
         page.skeleton_is_drawn()
-        page.shown("#interactive").click()
+        page.click("#interactive")
         page.driver.switch_to.frame(page.shown("dialog iframe"))
         page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
         page.driver.switch_to.default_content()
-        page.shown("#close-interactive").click()
+        page.click("#close-interactive")
         page.wait(lambda: not page.all("dialog"))
         # By key: Chromium may still send the mouse to the frame that has just gone.
         page.find("button[data-file='mesh.off']").send_keys(Keys.ENTER)
@@ -651,12 +650,12 @@ class SigningIn(unittest.TestCase):
         other.find("#sign-out").click()
         other.heading("Sign in")
         self.sign_in(other, "root")
-        other.shown("#everybody").click()
+        other.click("#everybody")
         other.wait(lambda: other.all(f"#job-{job}"))
         self.assertIn("ada", other.find(f"#job-{job}").text)
         other.submit(bench.path("box.off"), 1000, "box of root")
-        other.shown("a[href='#jobs']").click()
-        other.shown("#everybody").click()
+        other.click("a[href='#jobs']")
+        other.click("#everybody")
         other.wait(lambda: other.all("#owner option[value=ada]"))[0].click()
         names = lambda: [e.text for e in other.all(".job h2 a") if e.is_displayed()]
         other.wait(lambda: names() == ["body of ada"])
@@ -664,7 +663,7 @@ class SigningIn(unittest.TestCase):
         other.wait(lambda: names() == ["box of root"])
         other.find("#owner option[value='']").click()
         other.wait(lambda: len(names()) >= 2)
-        other.shown("#server-link").click()
+        other.click("#server-link")
         other.wait(lambda: other.all("tbody th"))
         self.assertEqual(self.errors(other, [job]), [])
 
@@ -681,7 +680,7 @@ class SigningIn(unittest.TestCase):
         page.wait(lambda: "Its results will be removed on" in page.find(".notes").text)
         self.assertIn("the lattice is coarse", page.find(".notes").text)
         page.screenshot("lab-3-removal")
-        page.shown("#pin").click()
+        page.click("#pin")
         page.shown("#unpin")
         page.wait(lambda: "removed" not in page.find(".notes").text)
         self.assertEqual(self.errors(page), [])
@@ -689,7 +688,7 @@ class SigningIn(unittest.TestCase):
     def test_wrong_and_revoked_tokens(self):
         page = self.visit(**PHONE)
         page.type("#token", "this is no token")
-        page.shown("form button").click()
+        page.click("form button")
         page.wait(lambda: "That did not work" in page.text())
         page.screenshot("lab-2-refused-phone")
         self.sign_in(page, "ada")
@@ -698,7 +697,7 @@ class SigningIn(unittest.TestCase):
         page.wait(lambda: "The session has ended" in page.text())
         page.heading("Sign in")
         page.type("#token", self.lab.tokens["ada"])
-        page.shown("form button").click()
+        page.click("form button")
         page.wait(lambda: "That did not work" in page.text())
         self.assertEqual(self.errors(page, ["/api/session", "/api/jobs"]), [])
 
@@ -748,31 +747,31 @@ class Phone(OnThePage):
     def test_everything_fits(self):
         page = self.page
         self.assert_fits()
-        page.shown("main a.button[href='#new']").click()
+        page.click("main a.button[href='#new']")
         page.heading("New job")
         self.assert_fits()
         self.choose("body.off")
         page.picture_is_drawn("#found img")
-        page.shown("summary").click()
+        page.click("summary")
         self.assert_fits()
         page.screenshot("phone-1-new")
         page.type("#points", 5000)
-        page.shown("#submit").click()
+        page.click("#submit")
         page.skeleton_is_drawn()
         self.assert_fits()
         page.screenshot("phone-2-done")
-        page.shown("#interactive").click()
+        page.click("#interactive")
         page.driver.switch_to.frame(page.shown("dialog iframe"))
         page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
         page.driver.switch_to.default_content()
         page.screenshot("phone-3-turned")
-        page.shown("#close-interactive").click()
-        page.shown("nav a[href='#jobs']").click()
+        page.click("#close-interactive")
+        page.click("nav a[href='#jobs']")
         page.heading("Jobs")
         page.shown(".job")
         self.assert_fits()
         page.screenshot("phone-4-jobs")
-        page.shown("#server-link").click()
+        page.click("#server-link")
         page.heading("Server")
         page.wait(lambda: page.all("tbody th"))
         self.assert_fits()
