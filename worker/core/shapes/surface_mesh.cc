@@ -65,6 +65,7 @@ SurfaceMesh surface_mesh_of(const Mesh& mesh) {
     std::array<Halfedge, 3> round;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      if (from == to) refuse();
       const auto other = sides.find(key_of(to, from));
       round[k] =
           other == sides.end() ? surface.add_edge(Vertex(from), Vertex(to)) : surface.opposite(other->second);

@@ -351,6 +351,8 @@ TEST_F(WebServiceTest, PassesParametersOn) {
   EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_ERODED_SURFACE);
   EXPECT_EQ(service_.fetches.back().eroded().fraction(), 0.25);
   EXPECT_EQ(made({{"artefact", "eroded"}, {"fraction", 2}}).status, 400);
+  for (const char* drawn : {"picture", "view"})
+    EXPECT_EQ(made({{"artefact", drawn}, {"fraction", -0.25}}).status, 400) << drawn;
 }
 
 TEST_F(WebServiceTest, FileNamesAreHarmless) {

@@ -10,6 +10,7 @@
 #include "core/base/split_mix64.h"
 #include "core/mesh/perturb.h"
 #include "core/mesh/unused_points.h"
+#include "core/repair/fill_holes.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
@@ -65,7 +66,6 @@ TEST(RepairMesh, LeavesASoundMeshAsItIs) {
   EXPECT_EQ(volume_of(repaired.mesh), volume_of(body));
 }
 
-// A side that is divided beside ones that are not.
 // So many triangles at a point took minutes, and would time out.
 TEST(RepairMesh, LeavesAConeOfManyTrianglesAsItIs) {
   const Mesh cone = make_cone(3, 2, 200'000);
@@ -81,6 +81,7 @@ TEST(RepairMesh, RefusesAWrapThatWouldBeABox) {
     EXPECT_THROW(repair_mesh(box, {.kind = RepairKind::kWrap, .alpha = alpha}), CoreError);
 }
 
+// A side that is divided beside ones that are not.
 TEST(RepairMesh, JoinsAtTJunctions) {
   const auto has_z = [](const Mesh& mesh, const Triangle& t, double z) {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.points[v].z == z; });
@@ -154,6 +155,17 @@ TEST(RepairMesh, LeavesHolesThatAreTooLongAndSaysWhere) {
   const RepairedMesh repaired = repair_mesh(open, {.longest_hole = 20});
   EXPECT_NE(repaired.left.find("1 hole is left, the longest 4"), std::string::npos) << repaired.left;
   EXPECT_THROW(make_solid(repaired.mesh), CoreError);
+}
+
+TEST(RepairMesh, OffersNoLengthForAHoleOfTooManyEdges) {
+  Mesh open = make_cone(3, 2, kMaxHoleEdges + 1);
+  std::erase_if(open.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return open.points[v].z == 0; });
+  });
+  const RepairedMesh repaired = repair_mesh(open, {.longest_hole = 1});
+  EXPECT_NE(repaired.left.find("of 20001 edges, more than can be filled"), std::string::npos)
+      << repaired.left;
+  EXPECT_EQ(repaired.longest_left, 0);
 }
 
 TEST(RepairMesh, WeldsSeparatesAndDropsWhatIsTooMuch) {

@@ -47,6 +47,7 @@ TEST(EdgeCollapseTest, StopsWhereTheTopologyWouldBreak) {
 TEST(EdgeCollapseTest, RefusesAMeshThatIsNotManifold) {
   const Mesh fan{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}};
   EXPECT_THROW(collapse_edges(fan, 1), CoreError);
+  EXPECT_THROW(collapse_edges({fan.points, {{0, 1, 1}}}, 1), CoreError);
   // Two closed surfaces that have a corner in common.
   Mesh touching = make_tetrahedron(1);
   const auto others = static_cast<std::uint32_t>(touching.points.size() - 1);

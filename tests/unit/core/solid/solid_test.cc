@@ -143,6 +143,10 @@ TEST(MakeSolid, LeavesOutTrianglesThatNameAVertexTwice) {
   EXPECT_NE(refusal({whole.points, {{0, 1, 0}, {1, 2, 2}}}).find("bounds no volume"), std::string::npos);
 }
 
+TEST(MakeSolid, RefusesVolumesBeyondNumbers) {
+  EXPECT_NE(refusal(make_box(1e150, 1e-150, 1)).find("has a volume out of range"), std::string::npos);
+}
+
 TEST(MakeSolid, SplitsVerticesWhereSurfacesTouch) {
   // Two boxes that share one corner vertex.
   Mesh mesh = joined(make_box(1, 1, 1), moved(make_box(1, 1, 1), {1, 1, 1}));

@@ -255,5 +255,19 @@ TEST(ReadNamedInput, TakesTheNumbersOfAnImageFromAFileBesideItsHeader) {
   EXPECT_EQ(exit_of([&] { read_input(header, options); }), ExitCode::kBadInput);
 }
 
+TEST(ReadNamedInput, TellsThatAnImageOfOneValueHasNoSurface) {
+  const tests::TemporaryDirectory dir;
+  const std::string image = dir / "full.nrrd";
+  tests::write_file(image, "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\n" +
+                               std::string(64, '\x07'));
+  try {
+    read_named_input(image, {});
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_NE(std::string(error.what()).find("all have the value 7: there is no surface"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace affskel::client
