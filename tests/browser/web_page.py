@@ -49,7 +49,8 @@ class Visitor:
         self.driver.get(address)
 
     def find(self, selector):
-        return self.driver.find_element(By.CSS_SELECTOR, selector)
+        """The first such element, once there is one."""
+        return self.wait(lambda: next(iter(self.all(selector)), None), selector)
 
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
@@ -85,7 +86,7 @@ class Visitor:
         box.send_keys(str(text))
 
     def text(self):
-        return self.find("body").text
+        return self.driver.find_element(By.TAG_NAME, "body").text
 
     def tab_to(self, selector, most=60):
         """Presses Tab until the element has the focus, which must be seen."""

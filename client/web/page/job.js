@@ -121,9 +121,10 @@ export class JobView {
   refresh() {} // the page's poll puts itself here,
   pause() {} // and here
 
-  async ask() {
+  /** @param {AbortSignal} signal */
+  async ask(signal) {
     try {
-      this.show(await call('GET', jobPath(this.id)));
+      this.show(await call('GET', jobPath(this.id), undefined, signal));
     } catch (error) {
       if (isGone(error)) this.forget();
       throw error;
@@ -280,6 +281,7 @@ export class JobView {
       };
       picture.src = result.href;
     } catch (error) {
+      if (turn !== this.drawn) return;
       picture.hidden = true; // it would be of other parameters
       waiting.textContent = `There is no picture: ${error.message}`;
     }

@@ -198,9 +198,13 @@ export class JobList {
 
   refresh() {} // the page's poll puts itself here
 
-  // Whether something happens.
-  async ask() {
-    const { jobs, more } = await call('GET', `/api/jobs?limit=${this.limit}${this.everybody ? '&everybody=1' : ''}`);
+  /**
+   * Whether something happens.
+   * @param {AbortSignal} signal
+   */
+  async ask(signal) {
+    const path = `/api/jobs?limit=${this.limit}${this.everybody ? '&everybody=1' : ''}`;
+    const { jobs, more } = await call('GET', path, undefined, signal);
     const ids = new Set(jobs.map((job) => job.id));
     for (const [id, card] of this.cards) {
       if (ids.has(id)) continue;

@@ -54,7 +54,7 @@ function showView(moved) {
   const { ask } = view;
   if (ask) {
     poll = new Poll(
-      () => ask.call(view),
+      (signal) => ask.call(view, signal),
       (error) => {
         if (error?.status === 401) return;
         const gone = isGone(error);

@@ -57,8 +57,10 @@ export class Overview {
     return sum;
   }
 
-  async ask() {
-    const [info, { jobs }] = await Promise.all([call('GET', '/api/server'), call('GET', `/api/jobs?everybody=1&limit=${kWatched}`)]);
+  /** @param {AbortSignal} signal */
+  async ask(signal) {
+    const get = (path) => call('GET', path, undefined, signal);
+    const [info, { jobs }] = await Promise.all([get('/api/server'), get(`/api/jobs?everybody=1&limit=${kWatched}`)]);
     const workers = info.workers || [];
     const awake = workers.filter((worker) => !worker.silent);
     this.facts.replaceChildren(

@@ -7,40 +7,43 @@ const kLongest = 30000;
 
 /** One question, asked as long as its view is seen. */
 export class Poll {
-  // `ask` returns whether something happens; it throws when there is no answer, which `failed` is told.
+  // `ask` gets the signal that ends its calls, and returns whether something happens; it throws when there is no
+  // answer, which `failed` is told.
   constructor(ask, failed) {
     this.ask = ask;
     this.failed = failed;
     this.failures = 0;
     this.timer = 0;
-    this.round = 0;
+    this.asking = new AbortController();
     document.addEventListener('visibilitychange', () => {
       if (this.timer !== 0 && !document.hidden) this.now();
     });
   }
 
-  // Asks at once, and from then on.
+  // Asks at once, and from then on.  An older question is given up: its answer may come after the newer one's, and
+  // would show what was.
   async now() {
-    const round = ++this.round;
-    clearTimeout(this.timer);
+    this.stop();
+    const asking = new AbortController();
+    this.asking = asking;
     this.timer = -1;
     let busy = false;
     try {
-      busy = await this.ask();
+      busy = await this.ask(asking.signal);
       if (this.failures > 0) this.failed(null);
       this.failures = 0;
     } catch (error) {
-      if (round !== this.round) return;
+      if (asking.signal.aborted) return;
       ++this.failures;
       this.failed(error);
     }
-    if (round !== this.round) return; // stopped, or asked anew meanwhile
+    if (asking.signal.aborted) return; // stopped, or asked anew meanwhile
     const pause = this.failures > 0 ? Math.min(kLongest, kSoon * 2 ** this.failures) : busy ? kSoon : kIdle;
     this.timer = setTimeout(() => this.now(), document.hidden ? Math.max(pause, kHidden) : pause);
   }
 
   stop() {
-    ++this.round;
+    this.asking.abort();
     clearTimeout(this.timer);
     this.timer = 0;
   }

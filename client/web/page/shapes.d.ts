@@ -25,7 +25,7 @@ interface Session {
 interface View {
   element: HTMLElement;
   title: string;
-  ask?(): Promise<boolean>;
+  ask?(signal: AbortSignal): Promise<boolean>;
   refresh?(): any;
   pause?(): void;
 }
