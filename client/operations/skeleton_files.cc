@@ -66,7 +66,8 @@ v1::FetchArtifactRequest surface_request(const FetchRequest& request, const Chos
 Notice empty_surface(const v1::SkeletonQuality* quality) {
   Notice empty = warning("EMPTY_SURFACE", "the surface is empty: ");
   if (quality == nullptr) {
-    empty.message += "no three skeleton points are near enough; try a larger alpha or a smaller threshold";
+    empty.message +=
+        "there are no three skeleton points near enough to each other; try a smaller threshold or a larger alpha";
   } else if (quality->advice().empty()) {
     empty.message += "no piece of the sheet is significant enough; try a smaller threshold";
   } else {

@@ -161,7 +161,7 @@ void lose_lease(Tx& tx, const TaskRow& task, const std::string& why, bool may_co
   error.set_code("WORKER_LOST");
   error.set_message("the " + wire::word(task.kind) + " task lost its worker " +
                     std::to_string(task.losses + 1) + " times in a row without any progress (last: " + why +
-                    "); see the workers' logs, a worker may run out of memory");
+                    "); see the workers' logs: it may crash them, or need more memory than they have");
   if (may_come_back) {
     offer_to_others(tx, task);
   } else {
