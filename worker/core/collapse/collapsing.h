@@ -100,8 +100,14 @@ class Collapsing {
         if (states_.may_own(cube, place)) visit(DualComplex::name(cube, place));
   }
 
+  // The first that is there.
   Cell coface_of(Cell cell) const {
-    return complex_.find_coface(cell, [&](Cell coface) { return has(coface); });
+    Cell found = cell;
+    complex_.any_coface(cell, [&](Cell coface) {
+      if (has(coface)) found = coface;
+      return found == coface;
+    });
+    return found;
   }
 
   template <class Rules>

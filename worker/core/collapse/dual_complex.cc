@@ -85,9 +85,7 @@ DualComplex::Cofaces DualComplex::cofaces(const Star& star) const {
 }
 
 bool is_bare(const DualComplex& complex, DualComplex::Cell cell, const CellSet& cells) {
-  const auto cofaces = complex.cofaces(cell);
-  return std::none_of(cofaces.begin(), cofaces.end(),
-                      [&](DualComplex::Cell coface) { return cells.has(coface); });
+  return !complex.any_coface(cell, [&](DualComplex::Cell coface) { return cells.has(coface); });
 }
 
 void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set) {

@@ -115,7 +115,24 @@ class DualComplex {
     return found;
   }
 
-  /// The cells of one dimension more about a cell.
+  /// Calls visit(coface) for the cells of one dimension more about a cell, until one returns true: whether one has.
+  template <class Visit>
+  bool any_coface(Cell of, const Visit& visit) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) {
+      const Cofaces about = cofaces(star(cube, place));
+      return std::any_of(about.begin(), about.end(), visit);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (digit(place, axis) == 1) continue;
+      if (visit(name(cube, place - kWeight[axis]))) return true;
+      const std::uint32_t next = neighbour(cube, axis, 2);
+      if (next != kNone && visit(name(next, place - kWeight[axis]))) return true;
+    }
+    return false;
+  }
+
+  /// All of them.
   struct Cofaces {
     std::array<Cell, 24> cells;
     std::size_t count = 0;
@@ -124,35 +141,12 @@ class DualComplex {
     const Cell* end() const { return cells.data() + count; }
   };
   Cofaces cofaces(Cell of) const {
-    const std::uint32_t cube = cube_of(of), place = place_of(of);
-    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) return cofaces(star(cube, place));
     Cofaces found;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (digit(place, axis) == 1) continue;
-      found.cells[found.count++] = name(cube, place - kWeight[axis]);
-      if (const std::uint32_t next = neighbour(cube, axis, 2); next != kNone)
-        found.cells[found.count++] = name(next, place - kWeight[axis]);
-    }
+    any_coface(of, [&](Cell coface) {
+      found.cells[found.count++] = coface;
+      return false;
+    });
     return found;
-  }
-
-  /// The first of the cofaces of a cell that `wanted` accepts, or the cell itself.
-  template <class Wanted>
-  Cell find_coface(Cell of, const Wanted& wanted) const {
-    const std::uint32_t cube = cube_of(of), place = place_of(of);
-    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) {
-      for (const Cell coface : cofaces(star(cube, place)))
-        if (wanted(coface)) return coface;
-      return of;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (digit(place, axis) == 1) continue;
-      if (const Cell lower = name(cube, place - kWeight[axis]); wanted(lower)) return lower;
-      const std::uint32_t next = neighbour(cube, axis, 2);
-      if (next == kNone) continue;
-      if (const Cell upper = name(next, place - kWeight[axis]); wanted(upper)) return upper;
-    }
-    return of;
   }
 
   /// Calls visit(cell) for every cell once, by its own name.

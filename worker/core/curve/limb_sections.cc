@@ -1,6 +1,7 @@
 #include "core/curve/limb_sections.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -28,11 +29,12 @@ struct CutBoxes {
   const Vec3& across;
 
   bool meets(const Box& box) const {
+    if (!round.meets(box)) return false;
     const Vec3 sides = box.sides();
     const double height = dot(across, box.middle() - place);  // of the box's middle above the plane
     const double half =
         0.5 * (std::abs(across.x) * sides.x + std::abs(across.y) * sides.y + std::abs(across.z) * sides.z);
-    return std::abs(height) <= (1 + kSlack) * half && round.meets(box);
+    return std::abs(height) <= (1 + kSlack) * half;
   }
 };
 
@@ -71,16 +73,36 @@ void LimbSections::cut(const Box& round, const Vec3& place, const Vec3& across, 
   });
 }
 
+double LimbSections::height_above(std::size_t ray, const Turn& p) const {
+  return turns_[ray][0] * p[1] - turns_[ray][1] * p[0];
+}
+
+// Of the rays of a half turn those before the place, by its angle, have it on one side, those after it on the other, and
+// opposite rays have it on opposite ones.
+std::uint32_t LimbSections::rays_left_of(const Turn& p) const {
+  const bool upper = p[1] >= 0;
+  std::size_t before = 0, after = kRays / 2;
+  while (before < after) {
+    const std::size_t n = (before + after) / 2;
+    if ((height_above(n, p) < 0) == upper)
+      after = n;
+    else
+      before = n + 1;
+  }
+  constexpr std::uint32_t kHalf = (1U << kRays / 2) - 1;
+  const std::uint32_t first = upper ? kHalf & kHalf << before : kHalf >> (kRays / 2 - before);
+  return first | (~first & kHalf) << kRays / 2;
+}
+
 LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const Vec3& v,
                                          double reach) const {
   Rays length;
   length.fill(reach);
   cut(Box{place, place}.widened(reach), place, cross(u, v), [&](const auto& ends, const auto&) {
-    const std::array<double, 2> p{dot(ends[0], u), dot(ends[0], v)}, q{dot(ends[1], u), dot(ends[1], v)};
-    for (std::size_t n = 0; n < kRays; ++n) {
-      const double left = turns_[n][0] * p[1] - turns_[n][1] * p[0];
-      const double right = turns_[n][0] * q[1] - turns_[n][1] * q[0];
-      if ((left < 0) == (right < 0)) continue;
+    const Turn p{dot(ends[0], u), dot(ends[0], v)}, q{dot(ends[1], u), dot(ends[1], v)};
+    for (std::uint32_t between = rays_left_of(p) ^ rays_left_of(q); between != 0; between &= between - 1) {
+      const auto n = static_cast<std::size_t>(std::countr_zero(between));
+      const double left = height_above(n, p), right = height_above(n, q);
       const double part = left / (left - right);
       const double way =
           turns_[n][0] * (p[0] + part * (q[0] - p[0])) + turns_[n][1] * (p[1] + part * (q[1] - p[1]));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "core/base/vec3.h"
@@ -63,14 +64,17 @@ class LimbSections {
  private:
   static constexpr std::size_t kRays = 32;
   using Rays = std::array<double, kRays>;
+  using Turn = std::array<double, 2>;  // in the plane, along u and v
 
   template <class Visit>
   void cut(const Box& round, const Vec3& place, const Vec3& across, const Visit& visit) const;
+  double height_above(std::size_t ray, const Turn& p) const;  // on its left
+  std::uint32_t rays_left_of(const Turn& p) const;            // a bit each: those that have it on their right
   Rays outline(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
 
   const Mesh& surface_;
   BoxTree tree_;
-  std::array<std::array<double, 2>, kRays> turns_;  // cosine and sine of each ray's angle
+  std::array<Turn, kRays> turns_;  // cosine and sine of each ray's angle
 };
 
 }  // namespace affskel::core

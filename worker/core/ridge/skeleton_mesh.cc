@@ -45,11 +45,7 @@ class Placing {
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
-    const std::vector<char> fixed_rim = fixed_on_rim();
-    const std::vector<double> steps = rim_steps(fixed_rim);
-    even_out(fixed_rim, kRimPasses, context, [&](std::uint32_t v) {
-      return kept_off_surface(v, steps[v] * way_to_mean(v, rim_neighbours_));
-    });
+    even_out_rims(context);
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
     even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
@@ -170,6 +166,27 @@ class Placing {
     for (std::uint32_t v = 0; v < met.size(); ++v)
       if (met[v] > 0) drawn[v].strength = from_.low;
     mesh_.vertices = std::move(drawn);
+  }
+
+  // What lies within a surface goes along with the rim, the less the farther from it: a rim that is drawn in would leave it
+  // outside.
+  void even_out_rims(ExecutionContext* context) {
+    const std::vector<char> fixed_rim = fixed_on_rim();
+    const std::vector<double> steps = rim_steps(fixed_rim);
+    std::vector<char> fixed = fixed_rim;
+    for (const auto& ring : cells_.rings)
+      for (const std::uint32_t v : ring)
+        if (bound_[v] && rim_neighbours_[v].empty()) fixed[v] = 0;
+    std::vector<Vec3> before;
+    for (const SheetVertex& vertex : mesh_.vertices) before.push_back(vertex.position);
+    const auto moved = [&](std::uint32_t v) { return place(v) - before[v]; };
+    even_out(fixed, kRimPasses, context, [&](std::uint32_t v) {
+      if (!fixed_rim[v]) return kept_off_surface(v, steps[v] * way_to_mean(v, rim_neighbours_));
+      Vec3 way = -moved(v);
+      for (const std::uint32_t to : neighbours_[v])
+        way = way + (1 / static_cast<double>(neighbours_[v].size())) * moved(to);
+      return way;
+    });
   }
 
   // How much of the way to the mean of its neighbours a vertex goes in a pass.  Half of it would draw a circle of n vertices
