@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/disjoint_sets.h"
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
@@ -22,8 +21,7 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 48;        // of rims: over about five neighbours
-constexpr int kLeastRimPasses = 12;   // also of the smallest rim
+constexpr int kRimPasses = 12;        // of rims: over about two neighbours
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
@@ -48,7 +46,7 @@ class Placing {
     even_out_rims(context);
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
-    even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
+    even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, neighbours_, fixed); });
     take_values();
     make_faces();
     return std::move(mesh_);
@@ -172,7 +170,6 @@ class Placing {
   // outside.
   void even_out_rims(ExecutionContext* context) {
     const std::vector<char> fixed_rim = fixed_on_rim();
-    const std::vector<double> steps = rim_steps(fixed_rim);
     std::vector<char> fixed = fixed_rim;
     for (const auto& ring : cells_.rings)
       for (const std::uint32_t v : ring)
@@ -181,29 +178,12 @@ class Placing {
     for (const SheetVertex& vertex : mesh_.vertices) before.push_back(vertex.position);
     const auto moved = [&](std::uint32_t v) { return place(v) - before[v]; };
     even_out(fixed, kRimPasses, context, [&](std::uint32_t v) {
-      if (!fixed_rim[v]) return kept_off_surface(v, steps[v] * way_to_mean(v, rim_neighbours_));
+      if (!fixed_rim[v]) return kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_));
       Vec3 way = -moved(v);
       for (const std::uint32_t to : neighbours_[v])
         way = way + (1 / static_cast<double>(neighbours_[v].size())) * moved(to);
       return way;
     });
-  }
-
-  // How much of the way to the mean of its neighbours a vertex goes in a pass.  Half of it would draw a circle of n vertices
-  // together to 1 / e of its radius in n^2 / 10 passes: small rims go less.
-  std::vector<double> rim_steps(const std::vector<char>& fixed) const {
-    const auto all = static_cast<std::uint32_t>(cells_.vertices.size());
-    DisjointSets rims(all);
-    for (std::uint32_t v = 0; v < all; ++v)
-      for (const std::uint32_t to : rim_neighbours_[v])
-        if (!fixed[v] && !fixed[to]) rims.unite(v, to);
-    std::vector<double> count(all, 0), steps;
-    for (std::uint32_t v = 0; v < all; ++v) ++count[rims.find(v)];
-    for (std::uint32_t v = 0; v < all; ++v) {
-      const double n = count[rims.find(v)];
-      steps.push_back(0.5 * std::clamp(0.1 * n * n, 1.0 * kLeastRimPasses, 1.0 * kRimPasses) / kRimPasses);
-    }
-    return steps;
   }
 
   // Corners of the rim, and where something else begins, stay.
@@ -273,11 +253,12 @@ class Placing {
     return around.size() == 2 ? half + way_to_crest(v, unit(place(around[1]) - place(around[0]))) : half;
   }
 
-  // Less bent, on a line: a line drawn straight instead would be a string, with a corner where the surface holds it off.
-  Vec3 unbent(std::uint32_t v, const std::vector<char>& fixed) const {
-    Vec3 way = 0.25 * way_to_mean(v, neighbours_);
-    for (const std::uint32_t to : neighbours_[v])
-      if (!fixed[to]) way = way - 0.125 * way_to_mean(to, neighbours_);
+  // Less bent, on a line: a line drawn straight instead would be a string, with a corner where the surface holds it off, and
+  // a rim would be drawn in where a strip ends.
+  Vec3 unbent(std::uint32_t v, const Adjacency& neighbours, const std::vector<char>& fixed) const {
+    Vec3 way = 0.25 * way_to_mean(v, neighbours);
+    for (const std::uint32_t to : neighbours[v])
+      if (!fixed[to]) way = way - 0.125 * way_to_mean(to, neighbours);
     return way;
   }
 

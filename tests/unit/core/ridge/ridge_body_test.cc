@@ -112,6 +112,31 @@ TEST(RidgeSheet, OfABodyHasNoThornsInItsLimbs) {
           [](std::uint32_t, std::uint32_t, std::span<const EdgeSide> sides) { EXPECT_LE(sides.size(), 2U); });
 }
 
+// Where rims are evened out, what lay within stood out beyond them: in steps at heels, and a block on the neck.  Of every
+// two triangles that lie over each other one is counted, where they are more than a sliver.
+TEST(RidgeSheet, OfABodyIsNotFoldedAtItsRims) {
+  const Mesh mesh = make_body({.triangles = 1000});
+  const double h = box_of(mesh).longest_side() / 150;
+  const ErodedSolid body(mesh, axes(h), "triangles");
+  const RidgeSheet sheet = ridge_sheet(body.solid, body.lattice, body.field);
+  const auto at = [&](std::uint32_t v) { return sheet.vertices[v].position; };
+  std::size_t edges = 0, folded = 0;
+  Edges(sheet.vertices.size(), sheet.triangles)
+      .for_each([&](std::uint32_t a, std::uint32_t b, std::span<const EdgeSide> sides) {
+        if (sides.size() != 2) return;
+        const Vec3 along = unit(at(b) - at(a));
+        const auto off_edge = [&](const EdgeSide& side) {
+          const Triangle& t = sheet.triangles[side.triangle()];
+          const Vec3 way = at(t[0] ^ t[1] ^ t[2] ^ a ^ b) - at(a);
+          return way - dot(way, along) * along;
+        };
+        const Vec3 one = off_edge(sides[0]), other = off_edge(sides[1]);
+        ++edges;
+        folded += std::min(norm(one), norm(other)) > 0.15 * h && dot(unit(one), unit(other)) > 0.5;
+      });
+  EXPECT_LT(folded, edges / 200) << edges;
+}
+
 // What lies nearer to the surface than 0.3 of the local depth is a corner cut at a bend, or a ridge in a hollow; a
 // square that stands on a sheet at a corner is drawn together to nothing.
 TEST(RidgeSheet, KeepsOffTheSurfaceAndHasNoTriangleWithoutArea) {
