@@ -44,6 +44,8 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   if (!message.advice().empty() || cut) return;
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
   set_advice(core::small_skeleton_advice(field_.lattice(), basis_.radius, vertices), message);
+  if (!message.advice().empty()) return;
+  set_advice(core::bare_solid_advice(field_.lattice(), basis_.radius, sheet.vertices), message);
 }
 
 void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {

@@ -25,9 +25,9 @@
 #include "core/curve/volume_beyond.h"
 #include "core/curve/zipped_lines.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/lattice_points.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
-#include "core/ridge/row_band.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 

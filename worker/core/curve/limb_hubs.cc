@@ -8,7 +8,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/symmetric_eigen.h"
-#include "core/ridge/row_band.h"
+#include "core/lattice/lattice_points.h"
 
 namespace affskel::core {
 namespace {

@@ -16,6 +16,7 @@ namespace affskel::core {
 namespace {
 
 constexpr double kShort = 0.15;     // of rays: in a tube along one of the axes half of those across it
+constexpr double kNear = 0.4;       // of the reach: as far as most of those are looked for
 constexpr double kNothing = 1e-12;  // of the squared reach: a ray that short says nothing more
 
 constexpr double kSlack = 1e-9;  // for rounding, of lengths
@@ -185,7 +186,14 @@ LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& 
   return ellipse;
 }
 
+// Rays as long as that are mostly not needed.  Nor does it matter that rays are at most twice as long as the middle one of
+// their plane: more than kShort of all are shorter than that one.
 double LimbSections::thickness(const Vec3& place, double reach) const {
+  const double near = kNear * reach, found = shortest_rays(place, near);
+  return found < near ? found : shortest_rays(place, reach);
+}
+
+double LimbSections::shortest_rays(const Vec3& place, double reach) const {
   std::array<double, 3 * kRays> all;
   for (std::size_t k = 0; k < 3; ++k) {
     const Rays length = outline(place, kIdentity3[k], kIdentity3[(k + 1) % 3], reach);

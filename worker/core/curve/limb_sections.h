@@ -70,6 +70,7 @@ class LimbSections {
   void cut(const Box& round, const Vec3& place, const Vec3& across, const Visit& visit) const;
   double height_above(std::size_t ray, const Turn& p) const;  // on its left
   std::uint32_t rays_left_of(const Turn& p) const;            // a bit each: those that have it on their right
+  double shortest_rays(const Vec3& place, double reach) const;
   Rays outline(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
 
   const Mesh& surface_;

@@ -12,6 +12,7 @@
 #include "core/base/unit.h"
 #include "core/collapse/dual_complex.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/lattice_points.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {

@@ -12,6 +12,8 @@
 #include "core/base/plain_math.h"
 #include "core/erosion/field.h"
 #include "core/erosion/frame_field.h"
+#include "core/lattice/lattice_points.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 namespace {
@@ -29,6 +31,11 @@ constexpr double kFewVertices = 4, kFewAcross = 0.25;
 
 // Spacings from the surface: a plate that is no deeper may have no sheet yet, though it would have one.
 constexpr float kShallow = 3;
+
+// A point farther from the skeleton than so many radii of the solid there, and spacings, lies bare; about so many are
+// looked at, and this share of them tells.
+constexpr double kBareRadii = 4, kBareSpacings = 3, kMostBare = 0.2;
+constexpr std::size_t kLookedAt = 20000;
 
 // Points of a sheet through a cube of so many points: their number to the power 2/3, rounded up.
 std::size_t points_of_a_sheet(std::size_t points) {
@@ -157,6 +164,30 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
   return {
       point +
           ", as of a ball, a cube, or a bowl, whose wall is cut from outside only; more points would hardly show more.",
+      {}};
+}
+
+Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius,
+                         std::span<const SheetVertex> skeleton) {
+  if (skeleton.empty()) return {};
+  std::vector<Vec3> places;
+  for (const SheetVertex& vertex : skeleton) places.push_back((1 / lattice.spacing) * vertex.position);
+  const PointIndex index(places);
+  const std::size_t step = 1 + lattice.points / kLookedAt;
+  std::size_t looked_at = 0, bare = 0;
+  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    if (rank % step != 0) return;
+    const auto nearest = index.find({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    const float thick = std::max(radius[rank], radius[skeleton[nearest.number].point]);
+    ++looked_at;
+    bare += nearest.distance > kBareRadii * static_cast<double>(thick) + kBareSpacings;
+  });
+  const double share = static_cast<double>(bare) / static_cast<double>(looked_at);
+  if (share <= kMostBare) return {};
+  return {
+      base::rounded(100 * share, 2) +
+          " % of the solid are farther from it than twice the thickness there, for want of a ridge as strong as the "
+          "threshold: in walls that are bent, as of a bowl or a mug, E grows up to the hollow side, and has none.",
       {}};
 }
 

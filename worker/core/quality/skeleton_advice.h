@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/chords/chord_pruning.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
@@ -50,5 +51,11 @@ Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_latt
 /// and how many points to try where they may be too few; else nothing.
 /// @param radius per sample point: see surface_distance(). @param vertices of the skeleton, of a piece in the mean.
 Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radius, std::size_t vertices);
+
+/// That much of the solid has no skeleton near it, for as thick as it is there; else nothing.  In a wall that is bent, as
+/// of a bowl or a mug, E grows up to the hollow side, cut from the other one: it has no ridge.
+/// @param radius per sample point: see surface_distance(). @param skeleton its vertices.
+Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius,
+                         std::span<const SheetVertex> skeleton);
 
 }  // namespace affskel::core

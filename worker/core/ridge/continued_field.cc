@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/lattice/lattice_points.h"
+
 namespace affskel::core {
 namespace {
 

@@ -10,6 +10,7 @@
 #include "core/base/unit.h"
 #include "core/collapse/shortest_ways.h"
 #include "core/lattice/lattice_edges.h"
+#include "core/lattice/lattice_points.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {

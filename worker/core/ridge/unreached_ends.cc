@@ -6,6 +6,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/lattice_points.h"
 #include "core/ridge/row_band.h"
 #include "core/spatial/point_index.h"
 

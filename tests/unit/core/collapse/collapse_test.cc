@@ -14,8 +14,8 @@
 #include "core/chords/chord_fields.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/lattice_points.h"
 #include "core/quality/sheet_topology.h"
-#include "core/ridge/row_band.h"
 #include "core/shapes/shapes.h"
 
 namespace affskel::core {

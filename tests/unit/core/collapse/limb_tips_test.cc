@@ -8,8 +8,8 @@
 
 #include "core/collapse/lattice_solids.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/lattice/lattice_points.h"
 #include "core/ridge/local_depth.h"
-#include "core/ridge/row_band.h"
 #include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"

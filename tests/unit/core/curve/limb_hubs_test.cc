@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/curve/drawn_lines.h"
+#include "core/lattice/lattice_points.h"
 #include "core/mesh/polylines.h"
-#include "core/ridge/row_band.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 

@@ -172,5 +172,23 @@ TEST(SmallSkeletonAdvice, AsksForPointsOnlyWhereTheyAreFewAcross) {
   EXPECT_TRUE(small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 3.5f}, 6).text.empty());
 }
 
+// A rod with a skeleton in one of its ends alone, and one all along.
+TEST(BareSolidAdvice, IsForSolidsFarFromTheirSkeleton) {
+  NormalBlock block({3, 3, 60}, 0.5);
+  const std::vector<float> radius(block.lattice.points, 1.5f);
+  std::vector<SheetVertex> skeleton;
+  for (double k = 0; k < 60; k += 5) {
+    SheetVertex vertex;
+    vertex.position = 0.5 * Vec3{1, 1, k};
+    skeleton.push_back(vertex);
+  }
+  EXPECT_TRUE(bare_solid_advice(block.lattice, radius, skeleton).text.empty());
+  skeleton.resize(1);  // farther than 9 spacings: all but 9 layers of 60, and of the tenth the middle
+  const Advice advice = bare_solid_advice(block.lattice, radius, skeleton);
+  EXPECT_TRUE(says(advice, "85 % of the solid")) << advice.text;
+  EXPECT_TRUE(is_plain(advice));
+  EXPECT_TRUE(bare_solid_advice(block.lattice, radius, {}).text.empty());
+}
+
 }  // namespace
 }  // namespace affskel::core

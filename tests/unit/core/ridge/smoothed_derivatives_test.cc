@@ -8,9 +8,9 @@
 
 #include "core/base/error.h"
 #include "core/chords/chord_fields.h"
+#include "core/lattice/lattice_points.h"
 #include "core/ridge/continued_field.h"
 #include "core/ridge/local_depth.h"
-#include "core/ridge/row_band.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
