@@ -45,7 +45,13 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
   set_advice(core::small_skeleton_advice(field_.lattice(), basis_.radius, vertices), message);
   if (!message.advice().empty()) return;
-  set_advice(core::bare_solid_advice(field_.lattice(), basis_.radius, sheet.vertices), message);
+  std::vector<core::Vec3> places;
+  std::vector<std::uint32_t> points;
+  for (const core::SheetVertex& vertex : sheet.vertices) {
+    places.push_back(vertex.position);
+    points.push_back(vertex.point);
+  }
+  set_advice(core::bare_solid_advice(field_.lattice(), basis_.radius, places, points), message);
 }
 
 void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {

@@ -167,20 +167,18 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
       {}};
 }
 
-Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius,
-                         std::span<const SheetVertex> skeleton) {
-  if (skeleton.empty()) return {};
-  std::vector<Vec3> places;
-  for (const SheetVertex& vertex : skeleton) places.push_back((1 / lattice.spacing) * vertex.position);
-  const PointIndex index(places);
+Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
+                         std::span<const std::uint32_t> points) {
+  if (places.empty()) return {};
+  const PointIndex skeleton(places);
   const std::size_t step = 1 + lattice.points / kLookedAt;
   std::size_t looked_at = 0, bare = 0;
   for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
     if (rank % step != 0) return;
-    const auto nearest = index.find({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-    const float thick = std::max(radius[rank], radius[skeleton[nearest.number].point]);
+    const auto nearest = skeleton.find(lattice.spacing * Vec3{double(i), double(j), double(k)});
+    const float thick = std::max(radius[rank], radius[points[nearest.number]]);
     ++looked_at;
-    bare += nearest.distance > kBareRadii * static_cast<double>(thick) + kBareSpacings;
+    bare += nearest.distance > lattice.spacing * (kBareRadii * static_cast<double>(thick) + kBareSpacings);
   });
   const double share = static_cast<double>(bare) / static_cast<double>(looked_at);
   if (share <= kMostBare) return {};

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/chords/chord_pruning.h"
-#include "core/contour/sheet_mesh.h"
 #include "core/erosion/directions.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
@@ -54,8 +53,9 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
 
 /// That much of the solid has no skeleton near it, for as thick as it is there; else nothing.  In a wall that is bent, as
 /// of a bowl or a mug, E grows up to the hollow side, cut from the other one: it has no ridge.
-/// @param radius per sample point: see surface_distance(). @param skeleton its vertices.
-Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius,
-                         std::span<const SheetVertex> skeleton);
+/// @param radius per sample point: see surface_distance(). @param places of the skeleton's vertices, in the frame.
+/// @param points the sample point of each.
+Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
+                         std::span<const std::uint32_t> points);
 
 }  // namespace affskel::core

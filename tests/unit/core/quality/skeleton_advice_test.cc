@@ -176,18 +176,18 @@ TEST(SmallSkeletonAdvice, AsksForPointsOnlyWhereTheyAreFewAcross) {
 TEST(BareSolidAdvice, IsForSolidsFarFromTheirSkeleton) {
   NormalBlock block({3, 3, 60}, 0.5);
   const std::vector<float> radius(block.lattice.points, 1.5f);
-  std::vector<SheetVertex> skeleton;
+  std::vector<Vec3> places;
+  std::vector<std::uint32_t> points;
   for (double k = 0; k < 60; k += 5) {
-    SheetVertex vertex;
-    vertex.position = 0.5 * Vec3{1, 1, k};
-    skeleton.push_back(vertex);
+    places.push_back(0.5 * Vec3{1, 1, k});
+    points.push_back(0);
   }
-  EXPECT_TRUE(bare_solid_advice(block.lattice, radius, skeleton).text.empty());
-  skeleton.resize(1);  // farther than 9 spacings: all but 9 layers of 60, and of the tenth the middle
-  const Advice advice = bare_solid_advice(block.lattice, radius, skeleton);
+  EXPECT_TRUE(bare_solid_advice(block.lattice, radius, places, points).text.empty());
+  places.resize(1);  // farther than 9 spacings: all but 9 layers of 60, and of the tenth the middle
+  const Advice advice = bare_solid_advice(block.lattice, radius, places, points);
   EXPECT_TRUE(says(advice, "85 % of the solid")) << advice.text;
   EXPECT_TRUE(is_plain(advice));
-  EXPECT_TRUE(bare_solid_advice(block.lattice, radius, {}).text.empty());
+  EXPECT_TRUE(bare_solid_advice(block.lattice, radius, {}, {}).text.empty());
 }
 
 }  // namespace
