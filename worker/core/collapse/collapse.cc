@@ -33,8 +33,10 @@ class Order {
     }
     return std::max(0.0, farthest_ - sum / count);
   }
+  // Ways grow faster and faster towards the surface: lines slid along it, instead of coming off.
   double level(Cell cell) const {
-    return -value_at(complex_, cell, [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); });
+    return -value_at<Continued::kAcrossBoundary>(
+        complex_, cell, [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); });
   }
   void removed(Cell, Cell, double) {}
   void bared(Cell, double) {}

@@ -235,10 +235,14 @@ inline double radius_about(const DualComplex& complex, std::span<const float> ra
   return static_cast<double>(most);
 }
 
-/// A value of cubes at the middle of a cell, continued to there from each cube about it, as it changes towards that
-/// cube's far side, and averaged: cells of one cube have different ones, and mirror images the same.
+/// Where a value of cubes is continued to a cell: from all cubes about it, or only across what bounds the complex.
+enum class Continued { kFromAllCubes, kAcrossBoundary };
+
+/// A value of cubes at the middle of a cell, continued to there from cubes about it, as it changes towards such a
+/// cube's far side, and averaged: cells of one cube have different ones, and mirror images the same.  Continued from all,
+/// it is too small where the value grows faster and faster, and may fall where that rises.
 /// @param value value(cube).
-template <class Value>
+template <Continued kContinued, class Value>
 double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value& value) {
   const DualComplex::Star star = complex.star(cell);
   const std::uint32_t across = DualComplex::across(DualComplex::place_of(cell));
@@ -248,7 +252,11 @@ double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value&
     sum += here;
     for (std::uint32_t left = across; left != 0; left &= left - 1) {
       const auto axis = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t behind = complex.neighbour(cube, axis, 2 - DualComplex::digit(place, axis));
+      const std::uint32_t digit = DualComplex::digit(place, axis);
+      if (kContinued == Continued::kAcrossBoundary &&
+          complex.neighbour(cube, axis, digit) != DualComplex::kNone)
+        continue;
+      const std::uint32_t behind = complex.neighbour(cube, axis, 2 - digit);
       if (behind != DualComplex::kNone) sum += 0.5 * (here - value(behind));
     }
   }

@@ -54,7 +54,7 @@ class Thinning {
 
   // Depths before heights: a line that heights led would run to where E is great, not along its limb.
   double level(Cell cell) const {
-    return value_at(complex_, cell, [&](std::uint32_t cube) {
+    return value_at<Continued::kFromAllCubes>(complex_, cell, [&](std::uint32_t cube) {
       return static_cast<double>(depth_[cube]) + slight_ * height_[cube];
     });
   }
