@@ -110,6 +110,35 @@ TEST(Collapse, JoinsAnchorsByTheCheapestWay) {
   });
 }
 
+// From a tip in a corner of a bar, in which ways cost more and more towards the walls and the tip's end, a line leads to
+// the end of the strip in its middle: it does not slide along the walls beside the strip.
+TEST(Collapse, LeadsLinesOffTheWalls) {
+  const std::uint32_t wide = 9, strip = 20;
+  const BoxLattice bar(34, wide, wide);
+  const DualComplex complex(bar.lattice);
+  const auto cube = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    return wide * (wide * i + j) + k;
+  };
+  std::vector<Anchor> anchors{{complex.cell(cube(30, 0, 0), DualComplex::kUpperVertex), 0}};
+  for (std::uint32_t i = 0; i < strip; ++i)
+    for (std::uint32_t k = 3; k <= 5; ++k) anchors.push_back({complex.square(cube(i, 4, k), 1), 1});
+  std::vector<float> cost;
+  for (std::uint32_t i = 0; i < 34; ++i) {
+    for (std::uint32_t j = 0; j < wide; ++j) {
+      for (std::uint32_t k = 0; k < wide; ++k) {
+        const double off_wall = std::min({j, k, wide - 1 - j, wide - 1 - k}) + 0.5;
+        cost.push_back(static_cast<float>(std::exp(0.1 * i) * 4 / off_wall));
+      }
+    }
+  }
+  const CellSet left = collapse(complex, anchors, {.cost = cost}).cells;
+  std::size_t line = 0;
+  left.for_each([&](Cell cell) {
+    if (DualComplex::dimension(cell) == 1 && is_bare(complex, cell, left)) ++line;
+  });
+  EXPECT_LE(line, (30 - strip + 1) + 4 + 3U);  // so many edges lead to the middle of the strip's end; 37 slid
+}
+
 // A tip at the outer wall of a ring, which a square across from it anchors: a line leads to it, and the ring's own line
 // does not run there and back.
 TEST(Collapse, LeadsOneLineToATip) {
