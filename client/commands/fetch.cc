@@ -14,7 +14,7 @@ namespace {
 
 struct FetchOptions {
   std::string job, artifact, output, format;
-  SkeletonChoice skeleton;  // of the divergence alone
+  SkeletonChoice skeleton;  // the operator of the divergence alone, the threshold of limbs
   bool parts = false;       // of the field alone
 };
 
@@ -31,6 +31,8 @@ void check_options(const CLI::App& fetch) {
   if (fetch.count("--operator") > 0 && artifact != "divergence") {
     throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
   }
+  if (fetch.count("--threshold") > 0 && artifact != "curve" && artifact != "thickness")
+    throw CLI::ValidationError("--threshold", "is for the curve and the thickness; see skeleton --help");
   if (fetch.count("--parts") > 0 && artifact != "field")
     throw CLI::ValidationError("--parts", "is for the field; files of surfaces have parts anyway");
 }
@@ -44,6 +46,7 @@ void add_fetch(CommandLine& line) {
       "  affskel-client fetch @last field -o body.vti\n"
       "  affskel-client fetch @last skeleton -o body.csv\n"
       "  affskel-client fetch @last curve -o limbs.json\n"
+      "  affskel-client fetch @last curve --threshold 3 -o long.swc\n"
       "  affskel-client fetch @last thickness -o thickness.ply\n"
       "  affskel-client fetch 3f2a9c mesh -o submitted.off\n"
       "  affskel-client fetch @last divergence --operator sobel -o H.csv\n"
@@ -68,6 +71,12 @@ void add_fetch(CommandLine& line) {
   command->add_option("--operator", options->skeleton.operator_name, "Of the divergence (default: the job's)")
       ->check(one_of(with_divergence))
       ->type_name("OP");
+  command
+      ->add_option("--threshold", options->skeleton.threshold,
+                   "Of the curve, and of the parts beside the thickness: the shortest limb\n"
+                   "that counts, in its own radii (default: the job's curve's, else 0.9)")
+      ->check(positive_number())
+      ->type_name("T");
   command->add_flag("--parts", options->parts,
                     "The field with the part of the solid (see measure) that each sample\npoint lies in");
   add_output(command, options->output, "File to write; the format follows the extension; - is stdout");

@@ -95,7 +95,8 @@ std::string plain_mismatch(const std::string& text) {
 // helps more than naming what is missing without it.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
                         const std::vector<const CLI::App*>& levels) {
-  const std::vector<std::string> unknown = app.remaining(true);
+  std::vector<std::string> unknown = app.remaining(true);
+  std::erase(unknown, "--");  // what only ends the options
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
   const auto option = std::find_if(unknown.begin(), unknown.end(), is_option);
   const auto word = std::find_if_not(unknown.begin(), unknown.end(), is_option);

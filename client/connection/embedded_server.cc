@@ -143,8 +143,9 @@ void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options,
 EmbeddedPaths embedded_paths(const Environment& environment) {
   EmbeddedPaths paths;
   const auto home = environment.get("AFFSKEL_HOME");
-  paths.home = home ? fs::absolute(*home).lexically_normal()
-                    : xdg_directory(environment, "XDG_DATA_HOME", ".local/share") / "affskel";
+  const fs::path data =
+      home ? fs::path(*home) : xdg_directory(environment, "XDG_DATA_HOME", ".local/share") / "affskel";
+  paths.home = fs::absolute(data).lexically_normal();  // the server works in a directory of its own
   paths.log = paths.home / "server.log";
   paths.socket = paths.home / "server.sock";
   if (paths.socket.native().size() <= kMaxSocketPath) return paths;

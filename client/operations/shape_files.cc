@@ -125,7 +125,9 @@ Fetched fetch_given(Session& session, const FetchRequest& request, v1::ArtifactK
 Fetched fetch_thickness(Session& session, const FetchRequest& request) {
   ShapeOutput output(request.destination, thickness_formats(), "thickness");
   v1::ArtifactHeader header;
-  const v1::SolidParts parts = fetch_solid_parts(session, request.job, 0, header);
+  // What is chosen for another operator is not for parts.
+  const double threshold = request.skeleton.operator_name.empty() ? request.skeleton.threshold : 0;
+  const v1::SolidParts parts = fetch_solid_parts(session, request.job, threshold, header);
   ShapeFile shape = core::shape_of(surface_of(parts));
   shape.face_columns = {{"thickness", false, {parts.thickness().begin(), parts.thickness().end()}},
                         {"part", true, {parts.triangle_part().begin(), parts.triangle_part().end()}}};

@@ -137,25 +137,32 @@ LimbedSurface limbed_surface(const v1::SolidParts& solid) {
   return limbed;
 }
 
-v1::SkeletonParams curve_params(const FetchRequest& request) {
-  v1::SkeletonParams params;
-  params.set_operator_(v1::OPERATOR_CURVE);
-  if (request.skeleton.operator_name == operator_word(v1::OPERATOR_CURVE))
-    params.set_threshold(request.skeleton.threshold);
-  return params;
+// The job's own curve where the choice leaves it open; what is chosen for another operator is not for this one.
+ChosenSkeleton choose_curve(Session& session, const FetchRequest& request) {
+  ChosenSkeleton curve{request.job, {}};
+  curve.params.set_operator_(v1::OPERATOR_CURVE);
+  const std::string& named = request.skeleton.operator_name;
+  if (request.skeleton.threshold == 0 && named.empty()) {
+    const v1::Job job = session.get_job(request.job);
+    if (job.skeleton().operator_() == v1::OPERATOR_CURVE) curve.params = job.skeleton();
+    curve.job = job.id();
+  } else if (named.empty() || named == operator_word(v1::OPERATOR_CURVE)) {
+    curve.params.set_threshold(request.skeleton.threshold);
+  }
+  return curve;
 }
 
 // The curve as joints, with the surface that they move.
-Fetched fetch_armature(Session& session, const FetchRequest& request, ShapeOutput& output) {
+Fetched fetch_armature(Session& session, const FetchRequest& request, const ChosenSkeleton& chosen,
+                       ShapeOutput& output) {
   v1::ArtifactHeader header;
-  const v1::SolidParts solid =
-      fetch_solid_parts(session, request.job, curve_params(request).threshold(), header);
+  const v1::SolidParts solid = fetch_solid_parts(session, chosen.job, chosen.params.threshold(), header);
   const LimbedSurface limbed = limbed_surface(solid);
   output.write_by([&](const std::vector<std::string>& comments,
                       const WriteBytes& write) { write_glb(limbed, comments, write); },
                   header.job(),
-                  {"curve skeleton, as joints of the solid", "operator",
-                   skeleton_params_text(curve_params(request)), &solid.curve().quality()});
+                  {"curve skeleton, as joints of the solid", "operator", skeleton_params_text(chosen.params),
+                   &solid.curve().quality()});
   Fetched fetched{request.destination, "curve", "triangle", limbed.surface.triangles.size(), header.job()};
   fetched.quality = solid.curve().quality();
   return fetched;
@@ -179,14 +186,14 @@ Fetched fetch_surface(Session& session, const FetchRequest& request) {
 
 Fetched fetch_curve(Session& session, const FetchRequest& request) {
   ShapeOutput output(request.destination, curve_formats(), "curve skeleton");
-  if (output.format() == FileFormat::kGlb) return fetch_armature(session, request, output);
-  v1::FetchArtifactRequest asked = request_for(request.job, v1::ARTIFACT_KIND_SURFACE);
-  const v1::SkeletonParams params = curve_params(request);
-  *asked.mutable_surface()->mutable_skeleton() = params;
+  const ChosenSkeleton chosen = choose_curve(session, request);
+  if (output.format() == FileFormat::kGlb) return fetch_armature(session, request, chosen, output);
+  v1::FetchArtifactRequest asked = request_for(chosen.job, v1::ARTIFACT_KIND_SURFACE);
+  *asked.mutable_surface()->mutable_skeleton() = chosen.params;
   v1::ArtifactHeader header;
   const FetchedSurface curve = parse_surface(fetch_patiently(session, asked, header, "curve skeleton"));
   output.write(write_curve, curve.shape, header.job(),
-               {"curve skeleton", "operator", skeleton_params_text(params), &curve.quality});
+               {"curve skeleton", "operator", skeleton_params_text(chosen.params), &curve.quality});
   Fetched fetched{request.destination, "curve", "segment", curve.shape.segments.size(), header.job()};
   fetched.quality = curve.quality;
   fetched.notices = skeleton_notices(curve.shape.mesh().points.size(), curve.quality, header.job());

@@ -236,7 +236,7 @@ class Conversation {
       co_await refuse(refusal);
       co_return false;
     }
-    if (!is_whole) {
+    if (!is_whole || !reception.file.empty()) {  // an empty file is one, too
       const bool whole = co_await receive(head, *request, reception);
       if (!whole) co_return false;
     }

@@ -168,7 +168,9 @@ std::string Store::remove(const JobRef& job_ref) {
     const JobRow job = get_job(tx.db, resolve_job(tx.db, job_ref));
     if (job.active()) {
       throw StoreError(StoreError::Code::kPrecondition,
-                       "job " + job.id + " is " + wire::word(job.state) + ": cancel it first");
+                       "job " + job.id + " is " + wire::word(job.state) +
+                           (job.cancel_requested ? ", and will be cancelled within seconds: delete it then"
+                                                 : ": cancel it first"));
     }
     add_event(tx, job.id, {.event = "deleted"});  // for the log: the job takes its events along
     delete_job(tx, job);

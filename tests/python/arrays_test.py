@@ -52,8 +52,15 @@ class Decoding(unittest.TestCase):
         self.assertEqual(dense.ravel()[lattice.inside].tolist(), list(range(6)))
         self.assertEqual((dense == -1).sum(), 24 - 6)
         self.assertEqual(lattice.dense(lattice.points()).shape, (2, 3, 4, 3))
-        with self.assertRaises(ValueError):
-            lattice.dense(np.arange(5))
+        # What the other points get is no value of the kind: a mask that is NaN there would be true.
+        for values, outside in ((np.ones(6, bool), False), (np.arange(6), -1), (np.arange(6, dtype=np.uint8), 0)):
+            grid = lattice.dense(values)
+            self.assertEqual(grid.dtype, values.dtype)
+            self.assertEqual((grid.ravel() == outside).sum(), 24 - 6 + (values == outside).sum())
+        self.assertEqual(np.isnan(lattice.dense(np.ones(6))).sum(), 24 - 6)
+        for wrong in (lambda: lattice.dense(np.arange(5)), lambda: lattice.dense(3.0), lambda: lattice.dense(np.arange(6), np.nan)):
+            with self.assertRaises(ValueError):
+                wrong()
 
     def test_lattices_that_contradict_themselves_are_refused(self):
         for change in (dict(run_length=[2, 3]), dict(run_length=[8, 3, 1]), dict(run_length=[2, 0, 1]),

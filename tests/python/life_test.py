@@ -290,9 +290,16 @@ class Errors(WithDirectory):
         for wrong in (dict(spacing=-1), dict(spacing=float("nan")), dict(points=0), dict(points=2.5),
                       dict(points=1 << 40), dict(spacing=1, points=1), dict(operator="fuzzy"), dict(frame="mesh"),
                       dict(threshold=0), dict(threshold=float("inf")), dict(priority=10), dict(priority=-1),
-                      dict(repair="some"), dict(directions="sphere"), dict(name="x" * 201), dict(request_id="x" * 201)):
+                      dict(repair="some"), dict(directions="sphere"), dict(name="x" * 201), dict(request_id="x" * 201),
+                      dict(spacing=10 ** 400), dict(threshold="6"), dict(threshold=10 ** 400), dict(priority=5.0),
+                      dict(name=5), dict(name="\ud800"), dict(request_id=None), dict(directions=None), dict(repair=None)):
             with self.subTest(wrong), self.assertRaises(affskel.UsageError):
                 client.submit(CUBE.encode(), **wrong)
+        for spacing, error in ((1e-300, affskel.LimitError), (1e300, affskel.BadInputError)):
+            with self.subTest(spacing), self.assertRaises(error):
+                client.submit(CUBE.encode(), spacing=spacing)
+        with self.assertRaises(affskel.UsageError):
+            affskel.Client(5)
         self.assertEqual(client.jobs(), [])
 
     def test_results_that_do_not_exist(self):

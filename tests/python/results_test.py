@@ -480,7 +480,11 @@ class SameMesh(unittest.TestCase):
         measures = body.measures()
         body.save("curve", directory / "theirs.vtp")
         self.assertEqual(measures.curve.save(directory / "ours.vtp").read_bytes(), (directory / "theirs.vtp").read_bytes())
-        self.assertEqual(measures.surface.save(directory / "mesh.off").read_bytes(), body.mesh())
+        body.save("thickness", directory / "thickness.ply")
+        self.assertEqual(measures.surface.save(directory / "cut.ply").read_bytes(), (directory / "thickness.ply").read_bytes())
+        body.save("curve", directory / "theirs.json", "--threshold=4")
+        self.assertEqual(body.skeleton("curve", 4).save(directory / "ours.json").read_bytes(), (directory / "theirs.json").read_bytes())
+        self.assertLess(len((directory / "ours.json").read_bytes()), len(body.skeleton("curve").save(directory / "all.json").read_bytes()))
 
     def test_the_same_again_is_the_same_job_and_options_arrive(self):
         again = client.submit(directory / "body.off", spacing=300)

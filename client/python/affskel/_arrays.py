@@ -89,15 +89,23 @@ class Lattice:
         i, j, k = (index.ravel() for index in np.indices(self.dims))
         return self._places(i, j, k)
 
-    def dense(self, values: npt.ArrayLike, fill: float = np.nan) -> npt.NDArray[Any]:
+    def dense(self, values: npt.ArrayLike, fill: Any = None) -> npt.NDArray[Any]:
         """Values of the sample points, (R,) or (R, c), as an array (nx, ny, nz) or (nx, ny, nz, c).
 
         Args:
-            fill: what the other lattice points get.
+            fill: what the other lattice points get; None = NaN, of whole numbers -1, of whole numbers without sign 0, of
+                truth values False.
+
+        Raises:
+            ValueError: not as many values as sample points, or values of their kind cannot be `fill`.
         """
         array = np.asarray(values)
-        if len(array) != len(self):
-            raise ValueError(f"{len(array)} values for {len(self)} sample points")
+        if array.ndim == 0 or len(array) != len(self):
+            raise ValueError(f"{array.size} values for {len(self)} sample points")
+        if fill is None:
+            fill = {"b": False, "u": 0, "i": -1}.get(array.dtype.kind, np.nan)
+        elif array.dtype.kind in "bui" and not float(fill).is_integer():
+            raise ValueError(f"values of {array.dtype} cannot be {fill}")
         nx, ny, nz = self.dims
         grid = np.full((nx * ny * nz, *array.shape[1:]), fill, array.dtype)
         grid[self.inside] = array

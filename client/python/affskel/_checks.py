@@ -1,6 +1,7 @@
 """What of a mesh is told before anything is sent: that it is open, and that a spacing is not one of its unit."""
 from __future__ import annotations
 
+import numbers
 import re
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
@@ -8,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import Floats, Ints
-from ._errors import BadInputError, LimitError
+from ._errors import BadInputError, LimitError, UsageError
 
 
 class Polygons(NamedTuple):
@@ -50,6 +51,16 @@ def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], n
     which = np.empty(len(points), np.int64)
     which[order] = np.cumsum(first) - 1
     return ordered[first], which
+
+
+def number_of(value: object, what: str, more: str = "") -> float:
+    """Raises UsageError, which says what a number is and `more`, for what is none, or none that a double can be."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise UsageError(f"{what} is a number{more}, not {value!r}")
+    try:
+        return float(value)
+    except OverflowError as error:
+        raise UsageError(f"{what} is too large a number") from error
 
 
 def share_of(text: object) -> Optional[float]:
@@ -123,10 +134,11 @@ def require_points(mesh: Polygons, spacing: float, file: str = "") -> None:
     """
     size, volume = np.ptp(mesh.points, axis=0), _volume(mesh)
     longest = float(size.max())
-    if volume > MAX_POINTS * spacing ** 3:
-        raise LimitError(f"the spacing {spacing:.6g} gives about {volume / spacing ** 3:.3g} sample points, and at most "
+    count = volume / spacing / spacing / spacing  # infinite where spacing^3 would be 0
+    if count > MAX_POINTS:
+        raise LimitError(f"the spacing {spacing:.6g} gives about {count:.3g} sample points, and at most "
                          f"{MAX_POINTS} are taken; {(volume / MAX_POINTS) ** (1 / 3):.3g} is within that", file=file)
-    if spacing <= longest / 2 and volume >= LEAST_POINTS * spacing ** 3:
+    if spacing <= longest / 2 and count >= LEAST_POINTS:
         return
     unit = "".join(f", the size of a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)
     better = f"; a spacing of {(volume / 1e5) ** (1 / 3):.2g} gives 100000 points" if volume > 0 else ""

@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Union
 
-from ._checks import MAX_POINTS, longest_side, require_closed, require_finite, require_points, share_of
+from ._checks import MAX_POINTS, longest_side, number_of, require_closed, require_finite, require_points, share_of
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -48,10 +48,17 @@ def _user_name() -> str:
         return str(os.geteuid())
 
 
-def _number(value: object, what: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        raise UsageError(f"{what} is a number" + (", in units of the mesh, or a share of its length such as '1%'" if what == "spacing" else "") + f", not {value!r}")
-    return float(value)
+_SPACING = ", in units of the mesh, or a share of its length such as '1%'"
+
+
+def _text(value: object, what: str) -> str:
+    if not isinstance(value, str):
+        raise UsageError(f"{what} is a text, not {value!r}")
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise UsageError(f"{what} is no text: {error}") from error
+    return value
 
 
 def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) -> bool:
@@ -71,7 +78,7 @@ def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) ->
             return True
         raise
     if spacing is not None:
-        require_points(mesh.polygons, _number(spacing, "spacing"), mesh.file)
+        require_points(mesh.polygons, number_of(spacing, "spacing", _SPACING), mesh.file)
     return False
 
 
@@ -157,15 +164,19 @@ class Client:
             require_finite(given.polygons, given.file)
             spacing = share * longest_side(given.polygons)
             share = None
+        operator = "ridge" if operator is None else operator
+        for value, what in ((directions, "directions"), (minimum, "minimum"), (frame, "frame"), (operator, "operator"),
+                            (repair, "repair"), (request_id, "request_id"), ("" if name is None else name, "name")):
+            _text(value, what)
         header = self._header(share or spacing, points, directions, minimum, frame, repair)
         by_program = given.text is None or share is not None or isovalue is not None or repair not in ("auto", "none")
         if not by_program:
             by_program = _needs_program(given, spacing, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
         header.name = name if name is not None else _short(given.name, MAX_NAME)
-        if priority not in range(10):
-            raise UsageError(f"the priority {priority} is not 0 .. 9")
-        header.priority = priority
+        if isinstance(priority, bool) or not isinstance(priority, numbers.Integral) or priority not in range(10):
+            raise UsageError(f"the priority {priority!r} is not a whole number 0 .. 9")
+        header.priority = int(priority)
         header.request_id = request_id
         if by_program or given.text is None:
             return self._submit_file(given, header, operator, repair, isovalue, share)
@@ -226,13 +237,13 @@ class Client:
                 frame: str, repair: str) -> service.SubmitJobHeader:
         header = service.SubmitJobHeader()
         if spacing is not None:
-            step = _number(spacing, "spacing")
+            step = number_of(spacing, "spacing", _SPACING)
             if not 0 < step < float("inf"):
                 raise UsageError(f"the spacing {spacing} is not above 0")
             header.params.sampling.spacing = step
         else:
             wanted = DEFAULT_POINTS if points is None else points
-            if not 1 <= _number(wanted, "points") <= MAX_POINTS or int(wanted) != wanted:
+            if not 1 <= number_of(wanted, "points") <= MAX_POINTS or int(wanted) != wanted:
                 raise UsageError(f"the number of points {wanted} is not 1 .. 2^31")
             header.params.sampling.target_points = int(wanted)
         header.params.directions = directions
@@ -263,7 +274,7 @@ class Client:
                    "--operator", operator,
                    "--priority", str(header.priority), "--repair", repair]
         if isovalue is not None:
-            options += ["--isovalue", repr(float(_number(isovalue, "isovalue")))]
+            options += ["--isovalue", repr(float(number_of(isovalue, "isovalue")))]
         if header.skeleton.threshold:
             options += ["--threshold", repr(header.skeleton.threshold)]
         if header.name:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of, refined_of,
                       surface_of)
-from ._checks import share_of
+from ._checks import number_of, share_of
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
 from ._measures import Measures, measures_of
 from ._messages import plain, value_of_word
@@ -31,9 +31,10 @@ def skeleton_params(operator: Optional[str], threshold: Optional[float]) -> type
     if operator is not None:
         params.operator = value_of_word(types.Operator, operator, "operator")
     if threshold is not None:
-        if not 0 < threshold < float("inf"):
+        value = number_of(threshold, "threshold")
+        if not 0 < value < float("inf"):
             raise UsageError(f"the threshold {threshold} is not above 0")
-        params.threshold = threshold
+        params.threshold = value
     return params
 
 
@@ -279,7 +280,7 @@ class Job:
         measures = measures_of(types.SolidParts.FromString(self._fetched(request, timeout)))
         options = _skeleton_options(None, threshold)
         self._saveable(measures.curve, "fetch", self.id, "curve", *options)
-        self._saveable(measures.surface, "fetch", self.id, "mesh")
+        self._saveable(measures.surface, "fetch", self.id, "thickness", *options)
         return self._saveable(measures, "measure", self.id, *options)
 
     def mesh(self, *, timeout: Optional[float] = None) -> bytes:

@@ -34,7 +34,8 @@ class Measures(Saveable):
         branches: of each part the indices of its vertices in `curve`, from start to end.
         links: the same of lines between parts that lie within joints, whole: no part of the solid is theirs.
         curve: the curve skeleton, see Surface: its attribute "part" is each vertex's.
-        surface: the solid's, its triangles cut where parts meet; no attributes.
+        surface: the solid's, its triangles cut where parts meet; no attributes.  Saved, .ply or .vtp, it has the part and
+            the thickness of each triangle.
         triangle_part, thickness: (m,) per triangle of it: its part, and the way along its optimal normal to the skeleton
             of "ridge".
         point_part: (R,) per sample point, in the order of `Job.field`.

@@ -143,6 +143,8 @@ def choose(server: Optional[str], files: Mapping[str, Optional[PathLike]],
     """
     environment = os.environ if environment is None else environment
     configured: Dict[str, Tuple[str, int]] = {}
+    if server is not None and not isinstance(server, str):
+        raise UsageError(f"server is unix:PATH or HOST:PORT, not {server!r}")
     if server:
         chosen = Settings(_address(server, "server"), "the argument server")
     elif environment.get("AFFSKEL_SERVER"):

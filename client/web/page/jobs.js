@@ -2,9 +2,11 @@
 import { call, jobPath } from './api.js';
 import { confirmed, showProblem } from './dialogs.js';
 import { announce, background, button, h, save, setText, whenThemeChanges } from './elements.js';
-import { ago, counted, measure } from './numbers.js';
+import { ago, count, counted, measure } from './numbers.js';
 import { session } from './session.js';
 import { activity, isActive, isRemoved, progress, progressOf, wording } from './text.js';
+
+const kMostJobs = 1000; // that the service lists
 
 /** @type {Object<string, {text: string, compare: (a: Job, b: Job) => number}>} */
 const kOrders = {
@@ -140,6 +142,7 @@ export class JobList {
       h('a', { class: 'button primary', href: '#new' }, 'Choose a mesh'),
     );
     this.more = button('Show older jobs', () => this.showMore(), { hidden: true });
+    this.beyond = h('p', { class: 'small', hidden: true }, `These are the newest ${count(kMostJobs)} jobs; affskel-client list has older ones, too.`);
     this.search = h('input', { type: 'search', id: 'search', 'aria-label': 'Search in names, owners, ids and parameters', placeholder: 'Search' });
     this.state = h(
       'select',
@@ -187,12 +190,13 @@ export class JobList {
       this.nothing,
       this.list,
       this.more,
+      this.beyond,
     );
     this.title = 'Jobs';
   }
 
   async showMore() {
-    this.limit = Math.min(1000, 2 * this.limit);
+    this.limit = Math.min(kMostJobs, 2 * this.limit);
     await this.refresh();
   }
 
@@ -216,7 +220,8 @@ export class JobList {
     this.offerOwners(jobs);
     this.arrange();
     this.none.hidden = jobs.length > 0;
-    this.more.hidden = !more || this.limit >= 1000;
+    this.more.hidden = !more || this.limit >= kMostJobs;
+    this.beyond.hidden = !more || this.limit < kMostJobs;
     return jobs.some(isActive);
   }
 

@@ -27,6 +27,23 @@ TEST_F(ClientTest, FetchWritesWhatTheExtensionSays) {
   EXPECT_EQ(run({"fetch", "@last", "volume", "-o", dir_ / "f.ply"}).exit_code, 2);
 }
 
+// That of the job, where its operator is the curve.
+TEST_F(ClientTest, TheCurveIsFetchedByItsThreshold) {
+  const auto threshold = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"fetch", "@last", "curve", "-o", dir_ / "c.vtp"});
+    run(more);
+    return service_.fetches.back().surface().skeleton().threshold();
+  };
+  EXPECT_EQ(threshold({"--threshold", "3"}), 3);
+  service_.job.mutable_skeleton()->set_threshold(5);
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  EXPECT_EQ(threshold({}), 0);
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  EXPECT_EQ(threshold({}), 5);
+  EXPECT_EQ(threshold({"--threshold", "2"}), 2);
+  EXPECT_EQ(run({"fetch", "@last", "field", "--threshold", "2", "-o", dir_ / "f.csv"}).exit_code, 2);
+}
+
 TEST_F(ClientTest, TheMeshIsFetchedInAnyFormatOfSurfaces) {
   const core::Mesh submitted = core::read_off(mesh_).mesh;
   for (const FileFormat format : surface_formats()) {

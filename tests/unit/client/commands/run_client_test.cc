@@ -327,6 +327,9 @@ TEST_F(ClientTest, WrongUsageIsTwoAndJsonOnRequest) {
   const Outcome outcome = run({"submit", dir_ / "cube.off", "--spacing", "-1", "--json"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(json::parse(outcome.err).at("error").at("code"), "USAGE");
+  // What ends the options is none that is unknown.
+  EXPECT_NE(run({"submit", "--points", "x", "--", dir_ / "cube.off"}).err.find("--points"),
+            std::string::npos);
   for (const char* spacing : {"5mm", "0.1%%", "100%"}) {
     const std::string said = run({"submit", dir_ / "cube.off", "--spacing", spacing}).err;
     EXPECT_NE(said.find("a number > 0 or a share below 100% as in 1%"), std::string::npos) << said;

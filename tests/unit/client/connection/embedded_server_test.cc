@@ -27,6 +27,7 @@ TEST(EmbeddedPaths, FollowTheEnvironment) {
   EXPECT_EQ(own.log, "/own/place/server.log");
   EXPECT_TRUE(own.socket_dir.empty());
   EXPECT_TRUE(embedded_paths(test_environment({{"AFFSKEL_HOME", "relative"}})).home.is_absolute());
+  EXPECT_TRUE(embedded_paths(test_environment({{"HOME", "relative"}})).home.is_absolute());
 }
 
 TEST(EmbeddedPaths, DeepHomesGetAShortSocket) {

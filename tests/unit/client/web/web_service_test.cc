@@ -180,6 +180,8 @@ TEST_F(WebServiceTest, TakesImagesOfVoxels) {
       ask("POST", "/api/meshes?name=ct.nrrd", image).object()["error"].get<std::string>().find("isovalue"),
       std::string::npos);
   EXPECT_EQ(ask("POST", "/api/meshes?name=ct.nrrd&isovalue=x", image).status, 400);
+  EXPECT_NE(ask("POST", "/api/meshes?name=a.stl", "").object()["error"].get<std::string>().find("empty"),
+            std::string::npos);
   const json mesh = ask("POST", "/api/meshes?name=ct.nrrd&isovalue=100", image).object();
   EXPECT_EQ(mesh["facts"]["notes"][0]["code"], "isosurface");
   EXPECT_NEAR(mesh["facts"]["volume"].get<double>() / 64e6, 1, 0.1);
