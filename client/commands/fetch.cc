@@ -72,9 +72,10 @@ void add_fetch(CommandLine& line) {
       ->check(one_of(with_divergence))
       ->type_name("OP");
   command
-      ->add_option("--threshold", options->skeleton.threshold,
-                   "Of the curve, and of the parts beside the thickness: the shortest limb\n"
-                   "that counts, in its own radii (default: the job's curve's, else 0.9)")
+      ->add_option(
+          "--threshold", options->skeleton.threshold,
+          "Of the curve, and of the parts beside the thickness: the shortest limb\n"
+          "that counts, in its own radii (default: 0.9, of the curve the job's where its\noperator is curve)")
       ->check(positive_number())
       ->type_name("T");
   command->add_flag("--parts", options->parts,

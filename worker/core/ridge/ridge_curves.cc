@@ -5,7 +5,6 @@
 // For a triangle of corners x, y, z with e oriented alike, D_xy = (e_x + e_y) . (v_x cross v_y) tells on
 // which side of the line through v_x and v_y the origin lies.  It lies within the triangle of the v when
 // D_xy, D_yz and D_zx have one sign; they are then the barycentric coordinates of z, x and y.
-#include "core/lattice/lattice_points.h"
 #include "core/ridge/ridge_curves.h"
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 
 #include "core/base/unit.h"
 #include "core/lattice/lattice_edges.h"
+#include "core/lattice/lattice_points.h"
 #include "core/lattice/layer_index.h"
 
 namespace affskel::core {

@@ -46,7 +46,7 @@ class Placing {
     even_out_rims(context);
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
-    even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, neighbours_, fixed); });
+    even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
     take_values();
     make_faces();
     return std::move(mesh_);
@@ -253,12 +253,11 @@ class Placing {
     return around.size() == 2 ? half + way_to_crest(v, unit(place(around[1]) - place(around[0]))) : half;
   }
 
-  // Less bent, on a line: a line drawn straight instead would be a string, with a corner where the surface holds it off, and
-  // a rim would be drawn in where a strip ends.
-  Vec3 unbent(std::uint32_t v, const Adjacency& neighbours, const std::vector<char>& fixed) const {
-    Vec3 way = 0.25 * way_to_mean(v, neighbours);
-    for (const std::uint32_t to : neighbours[v])
-      if (!fixed[to]) way = way - 0.125 * way_to_mean(to, neighbours);
+  // Less bent, on a line: a line drawn straight instead would be a string, with a corner where the surface holds it off.
+  Vec3 unbent(std::uint32_t v, const std::vector<char>& fixed) const {
+    Vec3 way = 0.25 * way_to_mean(v, neighbours_);
+    for (const std::uint32_t to : neighbours_[v])
+      if (!fixed[to]) way = way - 0.125 * way_to_mean(to, neighbours_);
     return way;
   }
 
