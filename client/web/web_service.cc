@@ -86,13 +86,16 @@ struct Chosen {
   std::string methods;  // of the path
 };
 
+// HEAD is answered as GET is; the conversation leaves the body out.
 Chosen choose_route(const http::Request& head) {
+  const std::string_view method = head.method == "HEAD" ? "GET" : std::string_view(head.method);
   Chosen chosen;
   for (const Route& route : kRoutes) {
     const auto argument = match(route.path, head.path);
     if (!argument) continue;
-    chosen.methods += (chosen.methods.empty() ? "" : ", ") + std::string(route.method);
-    if (head.method != route.method) continue;
+    const std::string_view name = route.method;
+    chosen.methods += (chosen.methods.empty() ? "" : ", ") + std::string(name == "GET" ? "GET, HEAD" : name);
+    if (method != name) continue;
     chosen.route = &route;
     chosen.argument = *argument;
   }

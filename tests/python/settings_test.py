@@ -34,6 +34,11 @@ class SameAsTheCommandLine(unittest.TestCase):
         with self.assertRaisesRegex(affskel.UsageError, "that is a URL"):
             affskel.Client("http://localhost:7060").jobs()
 
+    def test_patience_is_a_number_of_seconds(self):
+        for patience in (float("nan"), -1, "5", None):
+            with self.subTest(patience), self.assertRaisesRegex(affskel.UsageError, "patience is"):
+                affskel.Client("localhost:7060", patience=patience)
+
     def test_malformed_addresses(self):
         refused = 0
         for text in filter(None, ADDRESSES):

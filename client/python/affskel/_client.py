@@ -99,14 +99,17 @@ class Client:
         patience: seconds for which a server that went away is waited for, in every call.
 
     Raises:
-        UsageError: an address, a file or the configuration is wrong, or the token would leave this machine in the
-            clear.
+        UsageError: an address, a file, the patience or the configuration is wrong, or the token would leave this
+            machine in the clear.
     """
 
     def __init__(self, server: Optional[str] = None, *, token_file: Optional[PathLike] = None,
                  tls_ca: Optional[PathLike] = None, client_cert: Optional[PathLike] = None,
                  client_key: Optional[PathLike] = None, patience: float = 300.0) -> None:
         files = {"token_file": token_file, "tls_ca": tls_ca, "client_cert": client_cert, "client_key": client_key}
+        patience = number_of(patience, "patience", " of seconds")
+        if not patience >= 0:
+            raise UsageError(f"patience is {patience!r} seconds, and at least 0 is taken")
         self._session = Session(choose(server, files), patience)
 
     def __enter__(self) -> "Client":

@@ -41,7 +41,9 @@ TEST_F(WebServiceTest, SaysWhatIsNotOffered) {
   EXPECT_EQ(ask("GET", "/page.html").status, 404);
   const Answer put = ask("PUT", "/api/jobs");
   EXPECT_EQ(put.status, 405);
-  EXPECT_EQ(put.header("Allow"), "GET, POST");
+  EXPECT_EQ(put.header("Allow"), "GET, HEAD, POST");
+  EXPECT_EQ(ask("HEAD", "/api/jobs").status, 200);
+  EXPECT_EQ(ask("HEAD", "/api/archives").status, 405);
   EXPECT_EQ(ask("GET", "/api/jobs/%FF").status, 400);
 }
 
