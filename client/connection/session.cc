@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
 #include "affskel/v1/client_service.grpc.pb.h"
+#include "base/pause.h"
 #include "client/connection/call_errors.h"
 #include "client/connection/embedded_server.h"
 #include "client/connection/health.h"
@@ -175,7 +175,7 @@ void Session::Link::run(const std::function<grpc::Status(Stub&)>& attempt, ExitC
       notify_away();
     }
     stub_.reset();
-    std::this_thread::sleep_for(pause);
+    base::pause(pause, policy_.stop);
     pause = std::min(2 * pause, policy_.longest_pause);
   }
   proven_ = true;
@@ -280,7 +280,7 @@ v1::Job Session::Link::watch(const std::string& job, const std::function<void(co
     request.set_job(last.id());  // "@last" may mean another job by now
     notify_away();
     stub_.reset();
-    std::this_thread::sleep_for(policy_.first_pause);
+    base::pause(policy_.first_pause, policy_.stop);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <vector>
 
+#include "base/directory.h"
 #include "base/temporary_files.h"
 
 namespace affskel::base {
@@ -36,10 +37,6 @@ fs::path follow_dangling(fs::path path) {
   return path;
 }
 
-fs::path directory_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 bool write_all(int fd, std::string_view rest) {
   while (!rest.empty()) {
     const ssize_t written = ::write(fd, rest.data(), rest.size());
@@ -48,13 +45,6 @@ bool write_all(int fd, std::string_view rest) {
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
   return true;
-}
-
-void sync_directory(const fs::path& directory) {
-  const int fd = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;  // some file systems do not let directories be opened; the file itself is safe
-  fsync(fd);
-  close(fd);
 }
 
 }  // namespace

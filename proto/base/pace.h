@@ -41,9 +41,6 @@ class Pace {
 
   bool waiting() const { return waiting_; }
 
-  /// When its turn began, or last was.
-  Time since() const { return since_; }
-
   /// Bytes so far.
   std::uint64_t total() const { return total_; }
 

@@ -13,6 +13,9 @@ namespace {
 // A token in use is written down this often.
 constexpr std::int64_t kNoteMs = 60'000;
 
+// A call may wait so long for a thread before it can be ended.
+constexpr std::int64_t kTellMs = 60'000;
+
 constexpr std::string_view kScheme = "bearer ";
 
 /// The token of an authorization; another scheme is a token without an owner.  RFC 9110: the scheme's name
@@ -79,9 +82,13 @@ std::vector<std::int64_t> Gate::newly_invalid() {
     for (const auto& [id, when] : active_) ids.push_back(id);
   }
   if (ids.empty()) return {};
-  const std::vector<std::int64_t> invalid = tokens_.invalid_tokens(ids, options_.now_ms());
+  const std::int64_t now = options_.now_ms();
+  const std::vector<std::int64_t> invalid = tokens_.invalid_tokens(ids, now);
   const base::MutexLock lock(mutex_);
-  for (const std::int64_t id : invalid) active_.erase(id);
+  for (const std::int64_t id : invalid) {
+    const auto known = active_.find(id);
+    if (known != active_.end() && now - known->second > kTellMs) active_.erase(known);
+  }
   return invalid;
 }
 

@@ -65,7 +65,7 @@ class Gate {
   Admission admit(Method method, const Credentials& credentials);
 
   /// Tokens that were good when they were used and are no longer: calls under way by them are to end.  Each
-  /// is told once.  Call now and then.
+  /// is told until a minute after its last use, for calls that were admitted and had not begun.  Call now and then.
   std::vector<std::int64_t> newly_invalid();
 
   /// Writes down when tokens were last used, a minute after the last time.  Call now and then.

@@ -15,8 +15,7 @@ class Receiving : public StreamCall, public grpc::ServerReadReactor<Request> {
  public:
   void OnReadDone(bool ok) final {
     place_.moved(ok ? message_.ByteSizeLong() : 0);
-    if (!moved(ok)) return;
-    run([this, ok] { return ok ? receive() : finish(); });
+    moved(ok, [this, ok] { return ok ? receive() : finish(); });
   }
   void OnCancel() final { end(grpc::Status::CANCELLED); }
   void OnDone() final { done(); }

@@ -65,13 +65,19 @@ void StreamCall::after(const grpc::Status& status, After what) {
   post(std::move(next));
 }
 
-bool StreamCall::moved(bool ok) {
-  const base::MutexLock lock(mutex_);
-  moving_ = false;
-  if (finished_) return false;
-  if (!ok && writes() && !ending_) ending_ = grpc::Status::CANCELLED;
-  if (ending_) finish_if_free();
-  return !finished_;
+void StreamCall::moved(bool ok, Body next) {
+  {
+    const base::MutexLock lock(mutex_);
+    moving_ = false;
+    if (finished_) return;
+    if (!ok && writes() && !ending_) ending_ = grpc::Status::CANCELLED;
+    if (ending_) {
+      finish_if_free();
+      return;
+    }
+    busy_ = true;  // with this lock: no other body may come between a message and what follows it
+  }
+  post(std::move(next));
 }
 
 void StreamCall::end(const grpc::Status& status) {

@@ -53,8 +53,8 @@ class StreamCall : public Endable, public std::enable_shared_from_this<StreamCal
   /// Runs a body soon, or when the one that is under way has come to wait; what it throws ends the call.
   void run(Body body);
 
-  /// For the reactor: gRPC has moved a message.  False when the call is over.
-  bool moved(bool ok);
+  /// For the reactor: gRPC has moved a message, and `next` runs before any other body, unless the call is over.
+  void moved(bool ok, Body next);
   /// For the reactor's OnDone: nothing of the object may be used afterwards.
   void done();
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/directory.h"
 #include "database/database_file.h"
 #include "database/errors.h"
 #include "database/migrate.h"
@@ -24,17 +25,12 @@ namespace fs = std::filesystem;
   throw std::system_error(error, std::generic_category(), "cannot write " + file);
 }
 
-fs::path directory_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-void sync(const std::string& path, int flags, const std::string& about) {
-  const int fd = open(path.c_str(), flags | O_RDONLY | O_CLOEXEC);
+void sync(const std::string& path, const std::string& about) {
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) fail(errno, about);
   const int error = fsync(fd) == 0 ? 0 : errno;
   close(fd);
-  // Some file systems cannot sync a directory; the file itself is safe.
-  if (error != 0 && (flags & O_DIRECTORY) == 0) fail(error, about);
+  if (error != 0) fail(error, about);
 }
 
 /// A file beside the target that becomes it, or vanishes.
@@ -42,7 +38,7 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& target) : target_(target) {
     // Not after the target: its name may be as long as names can be.
-    path_ = (directory_of(target) / ".affskel-backup.XXXXXX").string();
+    path_ = (base::directory_of(target) / ".affskel-backup.XXXXXX").string();
     const int fd = mkostemp(path_.data(), O_CLOEXEC);
     if (fd < 0) fail(errno, target_);
     close(fd);
@@ -56,10 +52,10 @@ class TemporaryFile {
   const std::string& path() const { return path_; }
 
   void become_target(bool replace) {
-    sync(path_, 0, target_);
+    sync(path_, target_);
     if (!(replace ? rename(path_.c_str(), target_.c_str()) == 0 : rename_to_new())) fail(errno, target_);
     path_.clear();
-    sync(directory_of(target_), O_DIRECTORY, target_);
+    base::sync_directory(base::directory_of(target_));
   }
 
  private:
@@ -88,7 +84,7 @@ void refuse_left_logs(const std::string& target) {
 
 bool lies_in(const fs::path& file, const fs::path& directory) {
   std::error_code error;
-  fs::path at = fs::weakly_canonical(directory_of(file), error);
+  fs::path at = fs::weakly_canonical(base::directory_of(file), error);
   for (; !fs::equivalent(at, directory, error); at = at.parent_path()) {
     if (at == at.parent_path()) return false;
   }

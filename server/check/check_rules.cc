@@ -159,7 +159,7 @@ constexpr const char* kTasks[] = {
     " FROM tasks t JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id"
     " WHERE t.kind NOT IN ('prepare', 'erode', 'refine') AND e.finished = 0",
 
-    // Of the job, copied: see migrations 5 and 8.
+    // Of the job, copied, which triggers keep so.
     "SELECT 'task ' || t.id, 'its place in the queue is not that of its job ' || j.id FROM tasks t"
     " JOIN jobs j ON j.id = t.job_id JOIN erosions e ON e.id = j.erosion_id WHERE t.state = 'pending'"
     " AND (t.seq <> j.seq OR t.priority <> j.priority OR t.owner <> j.owner OR t.parked <> (t.kind = "
@@ -171,7 +171,7 @@ constexpr const char* kTasks[] = {
      " FROM tasks WHERE state = 'failed' AND on_request = 0"),
 };
 
-// The ready tasks by owner, which triggers keep: see migration 8.  A row too few, and the tasks wait for
+// The ready tasks by owner, which triggers keep.  A row too few, and the tasks wait for
 // ever.
 constexpr const char* kQueues[] = {
     "WITH counted AS (SELECT owner, on_request, needs_core, needs_memory, priority, count(*) AS ready"
@@ -190,7 +190,7 @@ constexpr const char* kQueues[] = {
     " LEFT JOIN turns t USING (owner, on_request) WHERE q.turn IS NOT t.turn",
 };
 
-// What owners use, which triggers count: see migration 9.
+// What owners use, which triggers count.
 constexpr const char* kUse[] = {
     "SELECT 'erosion ' || id, 'is counted with ' || bytes || ' bytes, it has ' || n"
     " FROM (SELECT e.id, e.bytes,"

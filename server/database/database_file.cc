@@ -10,6 +10,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/directory.h"
 #include "base/regular_file.h"
 #include "database/errors.h"
 #include "database/migrate.h"
@@ -25,13 +26,8 @@ constexpr off_t kHeaderBytes = 100;
   throw StoreError(StoreError::Code::kUnusable, why);
 }
 
-std::string directory_of(const std::string& file) {
-  const std::filesystem::path directory = std::filesystem::path(file).parent_path();
-  return directory.empty() ? "." : directory.string();
-}
-
 std::string mark_of(const std::string& file) {
-  return directory_of(file) + "/affskel.made";
+  return (base::directory_of(file) / "affskel.made").string();
 }
 
 bool has_bytes(const std::string& file) {
@@ -82,13 +78,6 @@ void refuse_foreign(const std::string& file) {
   }
 }
 
-void sync_directory(const std::string& file) {
-  const int fd = open(directory_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  fsync(fd);  // some file systems cannot
-  close(fd);
-}
-
 void remove_with_logs(const std::string& file) {
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) unlink((file + suffix).c_str());
 }
@@ -114,7 +103,7 @@ void make_database(const std::string& file) {
   }
   if (rename(unfinished.c_str(), file.c_str()) != 0)
     throw std::system_error(errno, std::generic_category(), file);
-  sync_directory(file);
+  base::sync_directory(base::directory_of(file));
 }
 
 /// Only after the database is there: a mark without one would lock its own directory.  On a full disk it is
@@ -126,7 +115,7 @@ void make_mark(const std::string& file) {
   out << "affskel.db belongs in this directory; when it is missing, affskel-server does not start, lest it\n"
          "begin with an empty one.  To begin anew on purpose, remove this file, too.\n";
   out.close();
-  sync_directory(file);
+  base::sync_directory(base::directory_of(file));
 }
 
 }  // namespace

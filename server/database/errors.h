@@ -5,7 +5,7 @@
 
 namespace affskel::server {
 
-/// A request that the store refuses; nothing was changed.  Mapped to gRPC codes in rpc/status.cc.
+/// A request that the store refuses; nothing was changed.  Mapped to gRPC codes in calls/status.cc.
 class StoreError : public std::runtime_error {
  public:
   enum class Code {

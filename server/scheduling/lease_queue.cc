@@ -75,6 +75,7 @@ class LeaseQueue::Poll final : public grpc::ServerUnaryReactor,
   void OnDone() override {
     // A lease whose answer did not reach the worker would lie idle until its deadline.
     if (!token_.empty() && context_->IsCancelled()) {
+      queue_.registry_.ended(token_);
       queue_.room_.worker_calls.post(scope_->caller().connection, [&store = queue_.store_, token = token_] {
         guarded([&] { store.give_back(token); });
       });

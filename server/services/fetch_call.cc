@@ -65,6 +65,7 @@ StreamCall::After FetchCall::look(CallLimit::Place place) {
   if (state.error || state.reader != nullptr) stop_waiting();
   if (state.error) throw CallEnded(status_of_failure(*state.error));
   if (state.reader != nullptr) {
+    subscription_ = {};  // what changes from here on is not sent
     const v1::Job job = jobs_.with_reason(store_.job(request_.job()));
     return send(std::move(place), std::move(state.reader), &job);
   }

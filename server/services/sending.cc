@@ -24,8 +24,7 @@ StreamCall::After Sending::send(CallLimit::Place place, std::unique_ptr<BlobRead
 
 void Sending::OnWriteDone(bool ok) {
   place_.moved(message_.ByteSizeLong());
-  if (!moved(ok)) return;
-  run([this] { return next(); });
+  moved(ok, [this] { return next(); });
 }
 
 StreamCall::After Sending::next() {

@@ -38,7 +38,7 @@ constexpr int kReflectionThreads = 8;
 // A peer that does not even answer a ping, stopped or cut off, is given up after the sum of these.
 constexpr int kKeepaliveMs = 30000;
 constexpr int kKeepaliveTimeoutMs = 20000;
-// Workers ask whether a connection still lives, see worker/server_link.cc.
+// Workers ask whether a connection still lives, see worker/link/server_link.cc.
 constexpr int kMinPingPauseMs = 5000;
 
 // Between looks at calls that are too slow.
@@ -54,9 +54,9 @@ constexpr std::size_t kMaxUnusedBytes = std::size_t{32} << 20;
 // gRPC waits for each connection to acknowledge the end, which an idle peer may do seconds later.
 constexpr std::chrono::milliseconds kGoodbye{100};
 
-/// Room for a mesh of the greatest size beside what is kept for workers' results.
+/// Room for a mesh and a source of the greatest size beside what is kept for workers' results.
 std::uint64_t upload_bytes(const ServerOptions& options) {
-  return std::max(options.upload_bytes, options.store.max_mesh_bytes / 3 * 4 + 4);
+  return std::max(options.upload_bytes, options.store.max_mesh_bytes / 3 * 8 + 8);
 }
 
 /// What gRPC itself is told to bound.

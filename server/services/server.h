@@ -42,7 +42,7 @@ struct ServerOptions {
   /// Where metrics are told to every peer; other machines only with `insecure`.
   std::optional<wire::Address> metrics;
   StoreOptions store;
-  /// Uploads in memory at once; at least one mesh of the greatest size always finds room.
+  /// Uploads in memory at once; a mesh and a source of the greatest size always find room.
   std::uint64_t upload_bytes = std::uint64_t{2} << 30;
   CallLimits limits = limits_for(open_files_limit());
 };

@@ -48,7 +48,7 @@ void WatchCall::deliver(const EventHub::JobPtr& job) {
 }
 
 void WatchCall::OnWriteDone(bool ok) {
-  if (moved(ok)) run([this] { return next(); });
+  moved(ok, [this] { return next(); });
 }
 
 StreamCall::After WatchCall::next() {

@@ -69,10 +69,16 @@ void ReportCall::begin(const v1::ReportErosionHeader& header) {
 
 void ReportCall::take(const v1::FieldRecords& records) {
   const auto count = static_cast<std::uint64_t>(records.point_size());
-  // Parts are as large as there is room for, over all reports.
-  if (batch_->full() || !held_.take(count * sizeof(wire::PointRecord))) merge();
+  const std::uint64_t bytes = count * sizeof(wire::PointRecord);
+  // Parts are as large as there is room for, over all reports: what finds none is not kept for the next message.
+  bool has_room = !batch_->full() && held_.take(bytes);
+  if (!has_room) {
+    merge();
+    has_room = held_.take(bytes);
+  }
   batch_->append(records);
   received_ += count;
+  if (!has_room) merge();
 }
 
 /// One message of a refinement: what it calls done is stored with it, not in parts.

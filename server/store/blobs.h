@@ -28,7 +28,7 @@ struct ArtifactKey {
 };
 
 /// Stores an artefact; an equal key that is there already stays as it is.
-/// @param items points, or triangles of a surface.
+/// @param items points, or vertices of a surface.
 /// @param quality of a skeleton: serialized SkeletonQuality; empty for everything else.
 void put_artifact(Tx& tx, const ArtifactKey& key, std::string_view bytes, std::int64_t items,
                   const std::string& quality = {});

@@ -37,7 +37,7 @@ std::string progress_text(const JobRow& job) {
 template <typename Body>
 bool sound_or_fail(Tx& tx, const JobRow& job, Body&& body) {
   v1::JobError error;
-  error.set_code("DAMAGED");
+  error.set_code(kDamaged);
   try {
     body();
     return true;

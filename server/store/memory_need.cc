@@ -5,20 +5,13 @@
 #include <limits>
 
 #include "wire/artifact_kinds.h"
-#include "wire/params.h"
+#include "wire/memory_sizes.h"
 
 namespace affskel::server {
 namespace {
 
-// Measured, see worker/core/README.md, limits.
-constexpr std::uint64_t kPerTriangle = 235;
-constexpr std::uint64_t kPerPoint = 52;
-constexpr std::uint64_t kSheetPerPoint = 200;
-constexpr std::uint64_t kRefinePerPoint = 280;
-constexpr std::uint64_t kRefinePerTriangle = 200;
-
 // A triangle is 50 bytes of OFF text when its numbers are long: itself, and what it becomes.
-constexpr std::uint64_t kPerMeshByte = 1 + kPerTriangle / 50;
+constexpr std::uint64_t kPerMeshByte = 1 + wire::kBytesPerTriangle / 50;
 
 constexpr std::uint64_t kSmall = std::uint64_t{64} << 20;
 constexpr int kStepsLog = 3;  // eight steps to a power of two
@@ -28,7 +21,7 @@ v1::Operator shocks_of(v1::TaskKind kind, const std::string& params) {
   v1::SurfaceParams surface;
   if (kind == v1::TASK_KIND_SKELETON && skeleton.ParseFromString(params)) return skeleton.operator_();
   if (kind == v1::TASK_KIND_SURFACE && surface.ParseFromString(params)) return surface.skeleton().operator_();
-  return v1::OPERATOR_UNSPECIFIED;
+  return kind == v1::TASK_KIND_PARTS ? v1::OPERATOR_CURVE : v1::OPERATOR_UNSPECIFIED;
 }
 
 }  // namespace
@@ -36,12 +29,12 @@ v1::Operator shocks_of(v1::TaskKind kind, const std::string& params) {
 std::uint64_t memory_need(v1::TaskKind kind, std::uint64_t mesh_bytes, const v1::ErosionParams& params,
                           const v1::PreparedSummary& prepared, v1::Operator shocks) {
   if (kind == v1::TASK_KIND_PREPARE && prepared.triangles() == 0) {
-    return mesh_bytes * kPerMeshByte + params.sampling().target_points() * kPerPoint;
+    return mesh_bytes * kPerMeshByte + params.sampling().target_points() * wire::kBytesPerPoint;
   }
   const bool refine = kind == v1::TASK_KIND_REFINE;
   const std::uint64_t per_point =
-      kPerPoint + (wire::gives_sheet(shocks) ? kSheetPerPoint : 0) + (refine ? kRefinePerPoint : 0);
-  return prepared.triangles() * (kPerTriangle + (refine ? kRefinePerTriangle : 0)) +
+      wire::kBytesPerPoint + wire::skeleton_bytes_per_point(shocks) + (refine ? wire::kRefineBytesPerPoint : 0);
+  return prepared.triangles() * (wire::kBytesPerTriangle + (refine ? wire::kRefineBytesPerTriangle : 0)) +
          prepared.points() * per_point;
 }
 

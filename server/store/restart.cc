@@ -79,13 +79,13 @@ void restart_erosion(Tx& tx, std::int64_t erosion_id, std::int64_t directions) {
 
 void queue_again(Tx& tx, const std::string& job, const char* stage) {
   tx.db.run(
-      "UPDATE jobs SET stage = ?, skeleton_points = 0, quality = NULL,"
+      "UPDATE jobs SET stage = ?1, stage_ms = ?2, queued_ms = ?2, skeleton_points = 0, quality = NULL,"
       " (state, finished_ms, error_code, error_message) ="
       " (SELECT iif(again, 'queued', state), iif(again, 0, finished_ms), iif(again, NULL, error_code),"
       "  iif(again, '', error_message)"
       "  FROM (SELECT state = 'done' OR ifnull(error_code, '') = 'DAMAGED' AS again))"
-      " WHERE id = ?",
-      stage, job);
+      " WHERE id = ?3",
+      stage, tx.wall_ms, job);
 }
 
 }  // namespace affskel::server

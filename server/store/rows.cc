@@ -32,10 +32,12 @@ constexpr const char* kJobColumns =
     " e.core_version, j.stance_up, j.stance_front, e.round, e.refined_points"
     " FROM jobs j JOIN erosions e ON e.id = j.erosion_id ";
 
-void parse(google::protobuf::MessageLite& message, std::string_view bytes) {
-  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-    throw StoreError(StoreError::Code::kUnusable, "a stored message cannot be read");
-  }
+/// Part of a job.  One that cannot be read is told as the job's error: lists and leases of others go on.
+void parse_part(google::protobuf::MessageLite& part, std::string_view bytes, v1::Job& job) {
+  if (part.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return;
+  part.Clear();
+  job.mutable_error()->set_code(kDamaged);
+  job.mutable_error()->set_message("what the database holds of this job cannot be read");
 }
 
 void read_error(Columns& columns, v1::Job& job) {
@@ -43,7 +45,7 @@ void read_error(Columns& columns, v1::Job& job) {
   v1::JobError error;
   error.set_message(columns.text());
   error.set_line(columns.natural());
-  if (!code) return;
+  if (!code || job.has_error()) return;
   error.set_code(*code);
   *job.mutable_error() = error;
 }
@@ -84,11 +86,11 @@ ReadJob read_job(const Statement& row) {
   job.set_priority(static_cast<std::uint32_t>(columns.integer()));
   job.set_state(value_of<v1::JobState>(columns.text()));
   job.set_stage(value_of<v1::JobStage>(columns.text()));
-  parse(*job.mutable_params(), columns.blob());
-  parse(*job.mutable_skeleton(), columns.blob());
+  parse_part(*job.mutable_params(), columns.blob(), job);
+  parse_part(*job.mutable_skeleton(), columns.blob(), job);
   job.set_mesh_sha256(columns.text());
   job.set_mesh_bytes(columns.natural());
-  if (const auto prepared = columns.blob_or_null()) parse(*job.mutable_prepared(), *prepared);
+  if (const auto prepared = columns.blob_or_null()) parse_part(*job.mutable_prepared(), *prepared, job);
   job.set_directions_done(columns.natural());
   job.set_directions_total(columns.natural());
   job.set_created_ms(columns.natural());
@@ -99,7 +101,7 @@ ReadJob read_job(const Statement& row) {
   job.set_cancel_requested(columns.flag());
   job.set_skeleton_points(columns.natural());
   job.set_order_stride(columns.natural());
-  if (const auto quality = columns.blob_or_null()) parse(*job.mutable_quality(), *quality);
+  if (const auto quality = columns.blob_or_null()) parse_part(*job.mutable_quality(), *quality, job);
   job.set_pinned(columns.flag());
   job.set_removed_ms(columns.natural());
   job.set_expires_ms(columns.natural());
@@ -248,7 +250,7 @@ v1::Job job_message(Database& db, const std::string& id) {
   }
   job.set_waiting_reason(missing_core(db, id));
   Statement repair = db.query("SELECT report FROM repairs WHERE job_id = ?", id);
-  if (repair.step()) parse(*job.mutable_repair(), repair.blob(0));
+  if (repair.step()) parse_part(*job.mutable_repair(), repair.blob(0), job);
   return std::move(job);
 }
 

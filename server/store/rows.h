@@ -64,7 +64,11 @@ struct JobRef {
 /// @throws StoreError kNotFound; kInvalid when the prefix is too short or not unique.
 std::string resolve_job(Database& db, const JobRef& reference);
 
-/// The wire form of one job, with its finished positions and what it waits for in vain.
+/// Code of the error of a job whose data in the database are not what they were.
+inline constexpr const char* kDamaged = "DAMAGED";
+
+/// The wire form of one job, with its finished positions and what it waits for in vain.  It has the error kDamaged
+/// when part of it cannot be read.
 v1::Job job_message(Database& db, const std::string& id);
 
 /// Changes when the database is put back from a copy or repaired.

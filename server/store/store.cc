@@ -1,8 +1,8 @@
 #include "store/store.h"
 
-#include <filesystem>
 #include <utility>
 
+#include "base/directory.h"
 #include "base/logfmt.h"
 #include "database/errors.h"
 #include "database/migrate.h"
@@ -18,11 +18,6 @@
 
 namespace affskel::server {
 namespace {
-
-std::string directory_of(const std::string& file) {
-  const std::filesystem::path directory = std::filesystem::path(file).parent_path();
-  return directory.empty() ? "." : directory.string();
-}
 
 void put_state(Tx& tx, const char* key, const std::string& value) {
   tx.db.run(
@@ -73,13 +68,13 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
       clock_(clock),
       listener_(listener),
       metrics_(metrics),
-      reserve_(directory_of(file_), options_.reserve_bytes, options_.free_bytes),
+      reserve_(base::directory_of(file_), options_.reserve_bytes, options_.free_bytes),
       db_(ready_database_file(file_), Database::Mode::kReadWrite),
       readers_(file_),
       schema_version_(migrate(db_)),
       disk_full_(!reserve_.whole()) {
   if (disk_full_) live_on_reserve();
-  let_pages_go(db_, options_.free_bytes(directory_of(file_)));
+  let_pages_go(db_, options_.free_bytes(base::directory_of(file_)));
   write([this](Tx& tx) {
     recognise_file(tx, file_identity(file_));
     add_new_kinds(tx.db);

@@ -135,7 +135,7 @@ void restore_prepared(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader&
 }
 
 void store_derived(Tx& tx, const TaskRow& task, const v1::CompleteTaskHeader& header, std::string_view data) {
-  if (header.points() > 0xFFFFFFFF) refuse_completion("more than 2^32 - 1 points or triangles");
+  if (header.points() > 0xFFFFFFFF) refuse_completion("more than 2^32 - 1 points or vertices");
   const JobRow job = get_job(tx.db, task.job_id);
   if (header.quality().advice().size() > kMaxReasonBytes)
     refuse_completion("the advice on the skeleton is too long");

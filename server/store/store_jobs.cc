@@ -140,8 +140,8 @@ void go_on(Tx& tx, const JobRow& job) {
   if (!job.active()) require_queue_room(tx.db, tx.options.policy, job.owner);
   tx.db.run(
       "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
-      " finished_ms = 0, queued_ms = iif(cancel_requested, queued_ms, ?), error_code = NULL,"
-      " error_message = '', error_line = 0, removed_ms = 0, expires_ms = 0 WHERE id = ?",
+      " finished_ms = 0, queued_ms = iif(cancel_requested, queued_ms, ?1), stage_ms = iif(cancel_requested, stage_ms, ?1),"
+      " error_code = NULL, error_message = '', error_line = 0, removed_ms = 0, expires_ms = 0 WHERE id = ?2",
       tx.wall_ms, job.id);
   tx.db.run("UPDATE tasks SET losses = 0 WHERE job_id = ?", job.id);
   forget_memory_needs(tx, job.id);

@@ -236,7 +236,9 @@ std::optional<v1::Lease> Store::grant_next(Tx& tx, const LeaseAsk& ask) {
     if (adopt_instead(tx, task, ask.worker.core_version())) continue;
     const std::string token = wire::random_id();
     grant(tx, task, ask.worker, ask.supervised, token);
-    return lease_message(tx, task, token);
+    v1::Lease lease = lease_message(tx, task, token);
+    if (lease.job().error().code() != kDamaged) return lease;
+    give_up(tx, task, lease.job().error());  // its turn would come again and again
   }
   return std::nullopt;
 }
@@ -293,12 +295,16 @@ v1::ReportResponse Store::give_back(const std::string& token) {
 }
 
 int Store::expire_leases() {
-  return write([this](Tx& tx) {
+  std::set<std::int64_t> withdrawn;
+  const int lost = write([&](Tx& tx) {
     mutex_.assert_held();
-    const bool grace_is_over = tx.lease_ms >= orphans_until_ms_;
-    drop_old_requests(tx, grace_is_over ? std::exchange(orphans_, {}) : std::set<std::int64_t>());
+    withdrawn = tx.lease_ms >= orphans_until_ms_ ? orphans_ : std::set<std::int64_t>();
+    drop_old_requests(tx, withdrawn);
     return expire(tx);
   });
+  const base::MutexLock lock(mutex_);
+  for (const std::int64_t id : withdrawn) orphans_.erase(id);
+  return lost;
 }
 
 int Store::release_worker(const std::string& host, std::int64_t pid) {

@@ -51,6 +51,12 @@ std::vector<Range> checked_ranges(const v1::ReportErosionHeader& header, Range b
   return ranges;
 }
 
+/// A report that is repeated after its block was finished brings what is merged already, and the job may have come to
+/// refining since.
+bool takes_records(const JobRow& job, const TaskRow& task) {
+  return !job.finished && task.state != "done";
+}
+
 struct Progress {
   std::int64_t reported = 0;  // directions; of a refinement points
   std::int64_t added = 0;
@@ -164,11 +170,10 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     }
     tx.require_room();
     const std::vector<Range> ranges = checked_ranges(header, task.block);
-    // A report that is repeated after its block was finished finds the field finished, too.
     const Progress progress = add_positions(tx, job, ranges);
     reported = job;
     reported.directions_done += progress.added;
-    if (!job.finished) {
+    if (takes_records(job, task)) {
       note_given(tx.db, job, {task.worker, task.host}, ranges, records.records());
       merge_records(tx.db, job.erosion_id, job.points, records.records());
     }
@@ -253,7 +258,7 @@ void Store::report_part(const std::string& token, const RecordBatch& records) {
       return false;
     }
     tx.require_room();
-    if (!job.finished) {
+    if (takes_records(job, task)) {
       note_given(tx.db, job, {task.worker, task.host}, {}, records.records());
       merge_records(tx.db, job.erosion_id, job.points, records.records());
     }

@@ -52,7 +52,7 @@ struct NewTask {
   std::optional<std::int64_t> round;  // REFINE
 };
 
-/// Adds a task in its place in the queue: what decides it is copied from the job, see migrations 5 and 8.
+/// Adds a task in its place in the queue: what decides it is copied from the job, and triggers keep it so.
 std::int64_t enqueue(Tx& tx, const std::string& job_id, const NewTask& task) {
   const auto position = [&](std::int64_t Range::*end) {
     return task.block ? std::optional((*task.block).*end) : std::nullopt;

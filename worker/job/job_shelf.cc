@@ -3,21 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "wire/memory_sizes.h"
+
 namespace affskel::worker {
-namespace {
-
-// Measured, see core/README.md, limits.
-constexpr std::uint64_t kPerTriangle = 235;
-constexpr std::uint64_t kPerPoint = 52;
-constexpr std::uint64_t kRefinePerTriangle = 200;
-constexpr std::uint64_t kRefinePerPoint = 280;
-
-}  // namespace
 
 std::uint64_t bytes_of(const PreparedJob& job) {
   const bool refine = job.has_refinement();
-  return job.solid().mesh.triangles.size() * (kPerTriangle + (refine ? kRefinePerTriangle : 0)) +
-         job.lattice().points * (kPerPoint + (refine ? kRefinePerPoint : 0));
+  return job.solid().mesh.triangles.size() * (wire::kBytesPerTriangle + (refine ? wire::kRefineBytesPerTriangle : 0)) +
+         job.lattice().points * (wire::kBytesPerPoint + (refine ? wire::kRefineBytesPerPoint : 0));
 }
 
 void JobShelf::put(ShelvedJob job) {

@@ -111,11 +111,6 @@ void visit_field(std::string_view bytes, std::uint64_t points, Visit visit) {
 
 }  // namespace
 
-double skeleton_bytes_per_point(v1::Operator of_job) {
-  if (of_job == v1::OPERATOR_CHORDS) return 400;
-  return wire::gives_sheet(of_job) ? 200 : 0;
-}
-
 PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& params, unsigned threads,
                          core::ExecutionContext* context, const std::function<std::uint64_t()>& available,
                          double derive_bytes)

@@ -17,10 +17,6 @@
 
 namespace affskel::worker {
 
-/// What a job's own skeleton takes at its peak, beside field and lattice, bytes per point; measured, see
-/// worker/core/README.md, limits: of a thin plate, where a sheet is largest.
-double skeleton_bytes_per_point(v1::Operator of_job);
-
 /// A job's mesh read, its lattice laid and its directions made: a function of the bytes, the parameters
 /// and the core version alone, so any worker can make it again.  The erosion keeps references into the
 /// members: neither copied nor moved.

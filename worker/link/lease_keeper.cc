@@ -32,10 +32,10 @@ void keep(ServerLink& link, const std::string& token, std::chrono::milliseconds 
       const Why why = renew(link, token);
       if (why == Why::kGoesOn) continue;
       if (context != nullptr) context->stop(why);
+      return;
     } catch (const std::exception&) {
-      // The task's own calls will fail the same way, and report it.
+      // A server that is back before the task has ended finds its lease kept; else the task's own calls tell.
     }
-    return;
   }
 }
 

@@ -3,11 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <random>
 
 #include "base/logfmt.h"
-#include "base/mutex.h"
+#include "base/pause.h"
 #include "link/retry_policy.h"
 #include "wire/address.h"
 #include "wire/limits.h"
@@ -40,12 +39,6 @@ std::shared_ptr<grpc::Channel> connect(const ServerLinkOptions& options) {
   return wire::make_channel(address, options.access, arguments);
 }
 
-void wait(std::chrono::milliseconds pause, const std::stop_token& stop) {
-  base::Mutex mutex;
-  base::MutexLock lock(mutex);
-  std::condition_variable_any().wait_for(lock, stop, pause, [] { return false; });
-}
-
 }  // namespace
 
 ServerLink::ServerLink(const ServerLinkOptions& options, std::stop_token stop)
@@ -75,7 +68,7 @@ void ServerLink::note_answer(const grpc::Status& status) {
 // gRPC's connections make progress while a thread waits for them: between two calls none would but its
 // backup poller, every five seconds.
 void ServerLink::rest(std::chrono::milliseconds pause, const std::stop_token& stop) {
-  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return wait(pause, stop);
+  if (channel_->GetState(true) == GRPC_CHANNEL_READY) return base::pause(pause, stop);
   const auto end = std::chrono::system_clock::now() + pause;
   while (!stop.stop_requested() && std::chrono::system_clock::now() < end) {
     if (channel_->WaitForConnected(std::min(end, std::chrono::system_clock::now() + kLookAtStop))) return;

@@ -9,6 +9,7 @@
 #include "core/lattice/lattice_memory.h"
 #include "job/available_memory.h"
 #include "job/task_limit.h"
+#include "wire/memory_sizes.h"
 
 namespace affskel::worker {
 namespace {
@@ -69,7 +70,7 @@ void JobInHand::make(const v1::Lease& lease, TaskContext& context) {
         std::make_unique<PreparedJob>(mesh, prepared_params(lease.job()), options_.threads, &limit,
                                       first ? std::function<std::uint64_t()>([this] { return memory_left(); })
                                             : std::function<std::uint64_t()>(),
-                                      skeleton_bytes_per_point(lease.job().skeleton().operator_()));
+                                      static_cast<double>(wire::skeleton_bytes_per_point(lease.job().skeleton().operator_())));
   } catch (const core::LatticeMemoryError&) {
     throw;
   } catch (const core::CoreError& error) {

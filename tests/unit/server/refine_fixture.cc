@@ -61,12 +61,17 @@ v1::Job RefineTest::submit_infimum() {
   return store_->submit(header, "OFF 1").job;
 }
 
-v1::Job RefineTest::erode_infimum() {
+v1::Job RefineTest::prepare_infimum() {
   const v1::Job job = submit_infimum();
   const v1::Lease task = lease();
   PrepareResult result = prepare_result(task.token(), kRefinePoints, kRefineDirections);
   result.header.mutable_prepared()->set_vertices(kRefineVertices);
   store_->complete(result.header, result.data);
+  return store_->job(job.id());
+}
+
+v1::Job RefineTest::erode_infimum() {
+  const v1::Job job = prepare_infimum();
   while (store_->job(job.id()).stage() == v1::JOB_STAGE_ERODE) finish_block(lease());
   return store_->job(job.id());
 }

@@ -21,6 +21,8 @@ std::string expected_refined(std::uint32_t rounds);
 class RefineTest : public StoreTest {
  protected:
   v1::Job submit_infimum();
+  /// Up to the first block of directions.
+  v1::Job prepare_infimum();
   /// Up to the first block of round 0.
   v1::Job erode_infimum();
 

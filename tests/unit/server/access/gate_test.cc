@@ -136,7 +136,7 @@ TEST_F(GateTest, CertificatesAreAskedOfTcpAlone) {
   EXPECT_TRUE(gate.admit(Method::kGetJob, local).status.ok());
 }
 
-TEST_F(GateTest, TellsOnceOfATokenInUseThatIsGoodNoLonger) {
+TEST_F(GateTest, TellsOfATokenInUseThatIsGoodNoLongerUntilAMinuteAfterItsLastUse) {
   add("t", 7, "ada", v1::ROLE_USER);
   add("u", 8, "bob", v1::ROLE_USER);
   tokens_.rows["u"].revoked_ms = 1;
@@ -145,6 +145,8 @@ TEST_F(GateTest, TellsOnceOfATokenInUseThatIsGoodNoLonger) {
   EXPECT_FALSE(admit(with_token("u")).status.ok());
   EXPECT_TRUE(gate_.newly_invalid().empty());
   tokens_.rows["t"].expires_ms = now_ms_;
+  for (int times = 0; times < 2; ++times) EXPECT_EQ(gate_.newly_invalid(), std::vector<std::int64_t>{7});
+  now_ms_ += 60'001;
   EXPECT_EQ(gate_.newly_invalid(), std::vector<std::int64_t>{7});
   EXPECT_TRUE(gate_.newly_invalid().empty());
 }

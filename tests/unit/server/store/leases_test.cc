@@ -1,5 +1,6 @@
 #include <set>
 
+#include "database/sqlite.h"
 #include "expect_store_error.h"
 #include "store_fixture.h"
 
@@ -37,6 +38,23 @@ TEST_F(LeaseTest, RefusesIncompleteIdentities) {
   worker = worker_identity();
   worker.clear_core_version();
   EXPECT_STORE_ERROR(store_->lease(worker, "", false), kInvalid);
+}
+
+TEST_F(LeaseTest, AJobThatCannotBeReadFailsAloneAndIsListed) {
+  const std::string damaged = submit("OFF 1", "damaged").id(), other = submit("OFF 2", "other").id();
+  store_.reset();
+  {
+    Database db(database(), Database::Mode::kReadWrite);
+    db.execute(("UPDATE erosions SET params = x'ff' WHERE id = (SELECT erosion_id FROM jobs WHERE id = '" +
+                damaged + "')")
+                   .c_str());
+  }
+  open();
+  EXPECT_EQ(lease().job().id(), other);
+  const v1::Job told = store_->job(damaged);
+  EXPECT_EQ(told.state(), v1::JOB_STATE_FAILED);
+  EXPECT_EQ(told.error().code(), "DAMAGED");
+  EXPECT_EQ(store_->list({}).jobs.size(), 2U);
 }
 
 TEST_F(LeaseTest, CutsBlocksOfPositions) {

@@ -34,7 +34,8 @@ TEST(MemoryNeedTest, IsThatOfTheMeasuredLimits) {
     return memory_need(kind, 50'000'000, {}, prepared, shocks);
   };
   EXPECT_EQ(need(v1::TASK_KIND_ERODE), 235'000'000U + 520'000'000U);
-  EXPECT_EQ(need(v1::TASK_KIND_SURFACE, v1::OPERATOR_CHORDS), need(v1::TASK_KIND_ERODE) + 2 * kGiga);
+  EXPECT_EQ(need(v1::TASK_KIND_SURFACE, v1::OPERATOR_CHORDS), need(v1::TASK_KIND_ERODE) + 4 * kGiga);
+  EXPECT_EQ(need(v1::TASK_KIND_PARTS, v1::OPERATOR_CURVE), need(v1::TASK_KIND_ERODE) + 2 * kGiga);
   v1::ErosionParams params;
   params.mutable_sampling()->set_target_points(10'000'000);
   EXPECT_GE(memory_need(v1::TASK_KIND_PREPARE, 50'000'000, params, {}, v1::OPERATOR_UNSPECIFIED),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "database/sqlite.h"
 #include "expect_store_error.h"
 #include "refine_fixture.h"
 #include "wire/refined_record.h"
@@ -33,6 +34,22 @@ TEST_F(RefineTest, AJobGoesThroughRoundsUntilOneFindsNothing) {
   EXPECT_EQ(done.refine_round(), 3U);
   EXPECT_TRUE(refined(job.id()) == expected_refined(4));
   EXPECT_TRUE(field(job.id()) == expected_field(kRefinePoints, kRefineDirections));
+}
+
+// Its answer was lost, and the refinement has begun: nothing would merge what is logged now.
+TEST_F(RefineTest, TheLastReportOfTheErosionMayComeAgain) {
+  const v1::Job job = prepare_infimum();
+  const v1::FieldRecords few = made_up_records(job, 0, 1);
+  v1::Lease last;
+  while (store_->job(job.id()).stage() == v1::JOB_STAGE_ERODE) {
+    last = lease();
+    report(last, {last.positions(0)}, few, true);
+  }
+  report(last, {last.positions(0)}, few, true);
+  EXPECT_EQ(store_->job(job.id()).stage(), v1::JOB_STAGE_REFINE);
+  store_.reset();
+  Database db(database(), Database::Mode::kReadOnly);
+  EXPECT_EQ(db.integer("SELECT count(*) FROM field_log"), 0);
 }
 
 TEST_F(RefineTest, WhatComesOutDoesNotDependOnWhoDidWhatWhenAndHowOften) {

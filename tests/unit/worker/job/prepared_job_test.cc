@@ -49,13 +49,16 @@ TEST(PreparedJob, RefusesWhatDoesNotFitIntoMemory) {
       return false;
     }
   };
+  const auto of_skeleton = [](v1::Operator which) {
+    return static_cast<double>(wire::skeleton_bytes_per_point(which));
+  };
   const std::uint64_t points = PreparedJob(sample_mesh(), sample_params()).lattice().points;
   EXPECT_FALSE(fits(45 * points));
   EXPECT_TRUE(fits(70 * points));
   // What is derived in the end takes more than the erosion.
-  EXPECT_FALSE(fits(240 * points, skeleton_bytes_per_point(v1::OPERATOR_CHORDS)));
-  EXPECT_TRUE(fits(240 * points, skeleton_bytes_per_point(v1::OPERATOR_ZUCKER_HUMMEL)));
-  EXPECT_TRUE(fits(480 * points, skeleton_bytes_per_point(v1::OPERATOR_CHORDS)));
+  EXPECT_FALSE(fits(240 * points, of_skeleton(v1::OPERATOR_CHORDS)));
+  EXPECT_TRUE(fits(240 * points, of_skeleton(v1::OPERATOR_ZUCKER_HUMMEL)));
+  EXPECT_TRUE(fits(480 * points, of_skeleton(v1::OPERATOR_CHORDS)));
 }
 
 TEST(PreparedJob, LaysTheLatticeInTheFrameThatIsAskedFor) {
