@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/stopping_context.h"
 #include "sample_job.h"
+#include "wire/memory_sizes.h"
 
 namespace affskel::worker {
 namespace {
