@@ -37,7 +37,7 @@ std::string progress_text(const JobRow& job) {
 template <typename Body>
 bool sound_or_fail(Tx& tx, const JobRow& job, Body&& body) {
   v1::JobError error;
-  error.set_code(kDamaged);
+  error.set_code(kDamagedCode);
   try {
     body();
     return true;

@@ -36,7 +36,7 @@ constexpr const char* kJobColumns =
 void parse_part(google::protobuf::MessageLite& part, std::string_view bytes, v1::Job& job) {
   if (part.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return;
   part.Clear();
-  job.mutable_error()->set_code(kDamaged);
+  job.mutable_error()->set_code(kDamagedCode);
   job.mutable_error()->set_message("what the database holds of this job cannot be read");
 }
 

@@ -65,9 +65,9 @@ struct JobRef {
 std::string resolve_job(Database& db, const JobRef& reference);
 
 /// Code of the error of a job whose data in the database are not what they were.
-inline constexpr const char* kDamaged = "DAMAGED";
+inline constexpr const char* kDamagedCode = "DAMAGED";
 
-/// The wire form of one job, with its finished positions and what it waits for in vain.  It has the error kDamaged
+/// The wire form of one job, with its finished positions and what it waits for in vain.  It has the error kDamagedCode
 /// when part of it cannot be read.
 v1::Job job_message(Database& db, const std::string& id);
 

@@ -217,7 +217,7 @@ void Store::withdraw(std::int64_t task) {
 
 void Store::fail_damaged(const std::string& token, const std::string& why, bool retryable) {
   v1::JobError error;
-  error.set_code(kDamaged);
+  error.set_code(kDamagedCode);
   error.set_message(why);
   try {
     fail(token, error, retryable);

@@ -237,7 +237,7 @@ std::optional<v1::Lease> Store::grant_next(Tx& tx, const LeaseAsk& ask) {
     const std::string token = wire::random_id();
     grant(tx, task, ask.worker, ask.supervised, token);
     v1::Lease lease = lease_message(tx, task, token);
-    if (lease.job().error().code() != kDamaged) return lease;
+    if (lease.job().error().code() != kDamagedCode) return lease;
     give_up(tx, task, lease.job().error());  // its turn would come again and again
   }
   return std::nullopt;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/unit.h"
+#include "core/base/vec3.h"
 #include "core/collapse/collapsing.h"
 
 namespace affskel::core {
@@ -24,9 +26,17 @@ constexpr double kSteep = 0.5;
 // Shorter lines are steps of the lattice, spacings.
 constexpr double kMinLength = 4;
 
+constexpr double kWalk = 0.5;  // spacings: steps on the way to the middle of an end
+
 // What is so many times as long as wide has begun to be a limb: where births grow fast from there on, it comes to what it
 // grows from.  Twigs that fork were lost there.
 constexpr double kBegun = 0.5;
+
+// A line that comes to another's, and is so many times as long, is from another corner of the same end.
+constexpr double kSameEnd = 0.5;
+
+// A corner of a flat end lies so many times as far from its middle as from the surface.
+constexpr double kFlat = 2.5;
 
 class Thinning {
  public:
@@ -40,7 +50,7 @@ class Thinning {
         cuts_(cuts.begin(), cuts.end()) {}
 
   std::vector<LimbTip> tips() {
-    for (const Line& line : lines_) keep_tip(line);
+    for (Line& line : lines_) keep_tip(line);
     std::sort(tips_.begin(), tips_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<LimbTip> result;
     for (const auto& [begun, tip] : tips_) result.push_back(tip);
@@ -82,9 +92,12 @@ class Thinning {
     if (!line.begun && radius_at(end) - fall > line.rise) {
       line.tip.vertex = end;
       line.rise = radius_at(end) - fall;
+      line.tip_place = line.others = {};
+      line.lines = 0;
     }
     if (!line.begun && birth - fall > line.lead) {
       line.tip.root = end;
+      line.root_place = {};
       line.tip.radius = radius_at(end);
       line.tip.width = birth;
       line.tip.reach = line.tip.length = 0;
@@ -111,6 +124,9 @@ class Thinning {
     double tip_at = 0;  // length before that
     double whole = 0;   // of the chords
     std::array<int, 3> chord{};
+    // From where it has come to: its root, its tip, and the sum of the tips of other lines of the same end.
+    std::array<int, 3> root_place{}, tip_place{}, others{};
+    int lines = 0;  // these
     bool begun = false;
     std::uint32_t order = 0;  // of those that begin
     double time = 0;          // when it came to its end, from where, and along which edge
@@ -132,7 +148,11 @@ class Thinning {
       while (DualComplex::digit(DualComplex::place_of(edge), axis) != 1) ++axis;
       const auto [lower, upper] = complex.ends(edge);
       const bool upwards = lower == from;
-      chord[axis] += upwards ? 1 : -1;
+      const int step = upwards ? 1 : -1;
+      chord[axis] += step;
+      root_place[axis] -= step;
+      tip_place[axis] -= step;
+      others[axis] -= lines * step;
       return upwards ? upper : lower;
     }
   };
@@ -168,15 +188,68 @@ class Thinning {
     free_.push_back(number);
   }
 
-  void keep_tip(const Line& line) {
-    if (line.tip.reach >= least_reach_) tips_.emplace_back(line.order, line.tip);
+  void keep_tip(Line& line) {
+    if (line.tip.reach < least_reach_) return;
+    line.tip.vertex = tip_of(line);
+    tips_.emplace_back(line.order, line.tip);
+  }
+
+  // Of a flat end, whose corners lie far from its middle, the tip is in the middle.
+  Cell tip_of(const Line& line) const {
+    const Cell corner = line.tip.vertex;
+    if (line.lines == 0 || DualComplex::place_of(line.tip.root) != DualComplex::kUpperVertex) return corner;
+    Vec3 way, aside;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double middle = static_cast<double>(line.tip_place[axis] + line.others[axis]) / (1 + line.lines);
+      way[axis] = middle - line.root_place[axis];
+      aside[axis] = middle - line.tip_place[axis];
+    }
+    const Cell middle = middle_of_end(line.tip.root, way);
+    return norm(aside) > kFlat * radius_at(middle) ? middle : corner;
+  }
+
+  // On the straight way from the root to the middle of the tips of a limb's lines, and on from there as far as the distance
+  // to the surface does not fall fast.
+  Cell middle_of_end(Cell root, const Vec3& way) const {
+    const double length = norm(way);
+    Cell best = root;
+    std::uint32_t cube = DualComplex::cube_of(root);
+    std::array<int, 3> at{};
+    double most = 0;
+    for (double gone = 0; length > 0; gone += kWalk) {
+      cube = stepped(cube, gone / length * way, at);
+      if (cube == DualComplex::kNone) break;
+      const Cell here = complex_.cell(cube, DualComplex::kUpperVertex);
+      const double value = radius_at(here) + kSteep * gone;
+      if (gone > length && value < most) break;
+      most = std::max(most, value);
+      best = here;
+    }
+    return best;
+  }
+
+  // The cube at a place, spacings from where `at` counts from, or none.
+  std::uint32_t stepped(std::uint32_t cube, const Vec3& place, std::array<int, 3>& at) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int to = static_cast<int>(std::lround(place[axis]));
+      for (; at[axis] != to && cube != DualComplex::kNone; at[axis] += at[axis] < to ? 1 : -1)
+        cube = complex_.neighbour(cube, axis, at[axis] < to ? 2 : 0);
+    }
+    return cube;
   }
 
   // Of several lines that meet at a vertex the last goes on; of those that come at once the one from the highest.
   void arrive(Cell end, std::uint32_t number) {
     std::uint32_t& last = line_at_[end];
     if (last == DualComplex::kNone || is_later(lines_[number], lines_[last])) std::swap(last, number);
-    if (number != DualComplex::kNone) finish(number);
+    if (number == DualComplex::kNone) return;
+    const Line& other = lines_[number];
+    Line& line = lines_[last];
+    if (!line.begun && !other.begun && other.length() >= kSameEnd * line.length()) {
+      for (std::size_t axis = 0; axis < 3; ++axis) line.others[axis] += other.tip_place[axis] + other.others[axis];
+      line.lines += 1 + other.lines;
+    }
+    finish(number);
   }
   bool is_later(const Line& line, const Line& than) const {
     const auto key = [&](const Line& of) { return std::pair(level(of.from) + level(of.edge), of.from); };

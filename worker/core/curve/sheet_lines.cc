@@ -71,7 +71,7 @@ class Collapse {
                                       edges_.begin());
   }
 
-  // The vertex of the greatest E in each piece that has less than two ends.
+  // The vertex of the greatest E in each piece that has less than two ends, or where a line through it ends beyond it.
   void keep_centres() {
     std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> pieces;  // number of ends, centre
     for (std::uint32_t v = 0; v < stays_.size(); ++v) {
@@ -83,9 +83,29 @@ class Collapse {
     for (const auto& [piece, known] : pieces) {
       const auto& [count, centre] = known;
       if (count > 1 || stays_[centre]) continue;
-      stays_[centre] = 1;
-      centres_.push_back(centre);
+      const std::uint32_t kept = count == 1 ? free_end_beyond(centre) : centre;
+      stays_[kept] = 1;
+      centres_.push_back(kept);
     }
+  }
+
+  // Where a line from a vertex ends that is no end of a limb; the vertex itself where none does.
+  std::uint32_t free_end_beyond(std::uint32_t centre) const {
+    if (edges_round_[centre].size() > 2) return centre;
+    for (const std::uint32_t first : edges_round_[centre]) {
+      std::uint32_t edge = first, v = other_end(edge, centre);
+      while (cofaces_[edge] == 0 && !stays_[v] && edges_round_[v].size() == 2) {
+        edge = edges_round_[v][edges_round_[v][0] == edge ? 1 : 0];
+        v = other_end(edge, v);
+        if (v == centre) return centre;
+      }
+      if (cofaces_[edge] == 0 && !stays_[v] && edges_round_[v].size() == 1) return v;
+    }
+    return centre;
+  }
+
+  std::uint32_t other_end(std::uint32_t edge, std::uint32_t v) const {
+    return edges_[edge][0] == v ? edges_[edge][1] : edges_[edge][0];
   }
 
   // Per vertex: how far the nearest of `from` is, along the sheet.
@@ -206,7 +226,7 @@ class Collapse {
       edge_left_[edge] = 0;
       edges_at_[v] = 0;
       gone_.push_back(v);
-      v = edges_[edge][0] == v ? edges_[edge][1] : edges_[edge][0];
+      v = other_end(edge, v);
       --edges_at_[v];
     }
   }

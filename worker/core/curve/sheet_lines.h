@@ -23,7 +23,8 @@ struct SheetLines {
 /// has no line: it is opened where E is least, and no longer encloses anything.
 ///
 /// A piece with less than two of `ends`, and no tunnel, also keeps the vertex where E is greatest: a ball is that
-/// vertex, a drop the line from there to its tip.  A function of its arguments alone.
+/// vertex, a drop the line from there to its tip.  With one end, and a line through that vertex which ends beyond it, as in
+/// the body of a bottle, that line stays instead.  A function of its arguments alone.
 /// @param ends per vertex: not 0 where a line ends that stays.
 /// @throws CoreError kCancelled when the context asks to stop.
 SheetLines sheet_lines(const SheetMesh& sheet, std::span<const char> ends,

@@ -20,6 +20,9 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
+// Of a limb, spacings: shorter lines than that are steps of the lattice.
+constexpr double kLeastWidth = 2;
+
 // A closed way along edges of the complex, or a sum of such ways modulo 2.
 struct Cycle {
   std::vector<Cell> edges;   // ascending
@@ -145,7 +148,7 @@ class OpenLines {
     while (root + 1 < line.size() && from(root) < ball) ++root;
     const double width = radius_at(line[root]);
     const double length = from(line.size() - 1) - ball;
-    return {end, line[root], width, width, length / width, length};
+    return {end, line[root], width, width, length / std::max(width, kLeastWidth), length};
   }
 
  private:

@@ -30,7 +30,7 @@ struct RidgeConstants {
   double min_ball_share = 0.25;
   double noisy_ball_share = 0.565;
   double min_ball = 0.7;  ///< of the ball's radius: so far from its middle there may be surface
-  double min_radius = 1.5;
+  double min_radius = 1;
   double weak_share = 0.125;
 
   // Anchors.  About the centre of a ball E falls alike in all directions, and e is any of them: lambda_3 /

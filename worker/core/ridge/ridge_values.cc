@@ -82,8 +82,7 @@ bool RidgeValues::is_deep(const SheetVertex& vertex) const {
   // No ball in the solid is too large for it: without a search.
   if (is_surely_deep(radius, std::max(least_radius(vertex), share / constants_.min_ball * widest_)))
     return true;
-  return (radius >= constants_.min_radius && is_deep(vertex, surface_)) ||
-         (smoothed_ != nullptr && is_deep(vertex, *smoothed_));
+  return is_deep(vertex, surface_) || (smoothed_ != nullptr && is_deep(vertex, *smoothed_));
 }
 
 // Beside a hollow wall, where E is large up to the surface, noise makes a crest of E along it: a ridge as deep as the
@@ -91,7 +90,7 @@ bool RidgeValues::is_deep(const SheetVertex& vertex) const {
 bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const {
   const Vec3 place = (1 / field_.spacing) * vertex.position, wall = surface.nearest_place(place);
   const double radius = norm(place - wall);
-  if (radius < least_radius(vertex) || radius == 0) return false;
+  if (radius < std::max(least_radius(vertex), constants_.min_radius)) return false;
   double share = constants_.min_ball_share;
   if (smoothed_ != nullptr) {
     // Of the normals' difference, which is across the ridge, as much as leads to the wall.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/cheapest_ways.h"
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
@@ -44,6 +45,7 @@ class Placing {
     throw_if_stopped(context);
     draw_rims();
     even_out_rims(context);
+    find_ways_to_bound();
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
     even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
@@ -228,6 +230,18 @@ class Placing {
     }
   }
 
+  // Along edges, which are about a spacing long.
+  void find_ways_to_bound() {
+    std::vector<std::uint32_t> bound(bound_.size(), kNoNode);
+    for (std::uint32_t v = 0; v < bound.size(); ++v)
+      if (bound_[v]) bound[v] = v;
+    CheapestWays ways(std::move(bound));
+    ways.find([&](std::uint32_t v, const auto& go) {
+      for (const std::uint32_t to : neighbours_[v]) go(to, 1.0, v);
+    });
+    way_to_bound_ = std::move(ways.cost);
+  }
+
   const Vec3& place(std::uint32_t v) const { return mesh_.vertices[v].position; }
 
   // From a vertex to the mean of its neighbours.
@@ -283,7 +297,8 @@ class Placing {
     return norm(kept) < known.radius || inside(vertex.position + kept) ? kept : Vec3{};
   }
 
-  // Across a line: Newton's step to where P is greatest, not far at a time.
+  // Across a line: Newton's step to where P is greatest, not far at a time, the less the nearer what does not move is by
+  // the radius: a line goes there straight.
   Vec3 way_to_crest(std::uint32_t v, const Vec3& along) {
     const Vec3 off = walk(v);
     const PointDerivatives& here = from_.derivatives[mesh_.vertices[v].point];
@@ -293,10 +308,11 @@ class Placing {
     if (slope == 0) return {};
     const Vec3 uphill = (1 / slope) * across;
     const double bend = dot(uphill, bent(here, uphill)),
-                 reach = kNearCrest * static_cast<double>(from_.radius[mesh_.vertices[v].point]);
+                 radius = static_cast<double>(from_.radius[mesh_.vertices[v].point]),
+                 reach = kNearCrest * radius;
     if (slope > -bend * reach) return {};  // no crest, or one on the wall of a hollow
     const double step = std::min(slope / -bend, kLongestStep);
-    return (step * from_.lattice.spacing) * uphill;
+    return (std::min(1.0, way_to_bound_[v] / radius) * step * from_.lattice.spacing) * uphill;
   }
 
   static Vec3 bent(const PointDerivatives& at, const Vec3& v) {
@@ -363,6 +379,7 @@ class Placing {
   SkeletonCells cells_;
   Adjacency neighbours_, rim_neighbours_;
   std::vector<char> bound_;                         // per vertex: its place and values are known
+  std::vector<double> way_to_bound_;                // per vertex, to the nearest of these, spacings
   std::vector<Clear> clear_;                        // per vertex, of those near the surface
   std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point
   SheetMesh mesh_;

@@ -6,6 +6,7 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
+#include "core/base/unit.h"
 
 namespace affskel::core {
 namespace {
@@ -116,17 +117,38 @@ class Selection {
   std::vector<std::uint32_t> pieces() const {
     DisjointSets joined(count_);
     for_each_edge([&](std::span<const Side> sides) {
-      const Side* known = nullptr;
-      for (const Side& side : sides) {
-        if (!taken_[side.square]) continue;
-        if (known != nullptr && (is_strong(side) || closes_[known->square] || closes_[side.square]))
-          joined.unite(known->square, side.square);
-        known = &side;
-      }
+      const auto [a, b] = continued(sides);
+      if (a != b && (is_strong(sides[0]) || closes_[a] || closes_[b])) joined.unite(a, b);
     });
     std::vector<std::uint32_t> piece(count_);
     for (std::uint32_t square = 0; square < count_; ++square) piece[square] = joined.find(square);
     return piece;
+  }
+
+  // Of the squares at an edge that are taken the two that go on in each other, straightest; a square twice where it is alone.
+  std::pair<std::uint32_t, std::uint32_t> continued(std::span<const Side> sides) const {
+    std::pair<std::uint32_t, std::uint32_t> best{sides[0].square, sides[0].square};
+    double least = 2;
+    for (std::size_t m = 0; m < sides.size(); ++m)
+      for (std::size_t n = m + 1; n < sides.size(); ++n) {
+        if (!taken_[sides[m].square] || !taken_[sides[n].square]) continue;
+        const double bend = dot(away(sides[m]), away(sides[n]));
+        if (bend >= least) continue;
+        least = bend;
+        best = {sides[m].square, sides[n].square};
+      }
+    return best;
+  }
+
+  // From its edge to a square.
+  Vec3 away(const Side& side) const {
+    const Vec3& a = squares_.vertices[side.low].position;
+    const Vec3& b = squares_.vertices[side.high].position;
+    Vec3 middle;
+    for (const std::uint32_t v : squares_.cells.ring[side.square])
+      middle = middle + 0.25 * squares_.vertices[v].position;
+    const Vec3 along = unit(b - a), way = middle - 0.5 * (a + b);
+    return unit(way - dot(way, along) * along);
   }
 
   const CrossedSquares& squares_;

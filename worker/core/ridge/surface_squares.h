@@ -30,7 +30,8 @@ struct SurfaceSquares {
 /// 3. With the weaker ones in gaps between them: morphological closing along the surface (Serra 1982).  What is nearer to
 ///    strong squares than `gap`, and farther than that, by a square and a half, from what is not, or from where the surface
 ///    ends.
-/// Pieces are formed over edges with a strong end, and over all edges of what closes gaps.
+/// Pieces are formed over edges with a strong end, and over all edges of what closes gaps; of more than two squares at an
+/// edge by the two that go on in each other, so that what stands on a sheet is a piece of its own.
 /// A function of its arguments alone; the lower `low`, the more.
 /// @param gap half the width of gaps, radii.
 SurfaceSquares surface_squares(const CrossedSquares& squares, double low, double gap);

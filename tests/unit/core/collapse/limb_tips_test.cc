@@ -77,12 +77,18 @@ TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
   EXPECT_TRUE(empty);
 }
 
-// The lines from the two corners of an end come together at once; the lattice's order does not tell which goes on.
-TEST(LimbTips, OfALathAreTheHigherCornersOfItsEnds) {
-  for (const double x : {-1, 1}) {
-    const std::vector<Vec3> tips = tips_of(make_box(2.4, 0.6, 12), 0.11, {x, 0, 0});
+// The lines from the corners of an end come together at once: none of them is the end.
+TEST(LimbTips, OfALathAreTheMiddlesOfItsEnds) {
+  for (const double x : {-1, 0, 1}) {
+    std::vector<Vec3> tips = tips_of(make_box(2.4, 0.6, 12), 0.11, {x, 0, 0});
     ASSERT_EQ(tips.size(), 2U);
-    for (const Vec3& tip : tips) EXPECT_GT(x * (tip.x - 1.2), 0.3) << x << ' ' << tip.z;
+    std::sort(tips.begin(), tips.end(), [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+    for (const Vec3& tip : tips) {
+      EXPECT_NEAR(tip.x, 1.2, 0.17) << x << ' ' << tip.z;
+      EXPECT_NEAR(tip.y, 0.3, 0.17);
+    }
+    EXPECT_LT(tips[0].z, 1.2);
+    EXPECT_GT(tips[1].z, 10.8);
   }
 }
 

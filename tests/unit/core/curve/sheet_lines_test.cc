@@ -115,6 +115,21 @@ TEST(SheetLines, OfASheetWithoutEndsAreThePlaceOfTheGreatestE) {
   EXPECT_EQ(ends_of(lines), (std::vector<std::uint32_t>{6U * 31, 6U * 31 + 15}));
 }
 
+// The axis of a bottle, whose body is too short for a limb.
+TEST(SheetLines, GoOnToTheEndOfALineThroughThePlaceOfTheGreatestE) {
+  SheetMesh axis;
+  for (std::uint32_t v = 0; v < 9; ++v) {
+    axis.vertices.emplace_back();
+    axis.vertices.back().position = {static_cast<double>(v), 0, 0};
+    axis.vertices.back().erosion = v == 6 ? 2 : 1;
+    if (v > 0) axis.segments.push_back({v - 1, v});
+  }
+  std::vector<char> ends(9, 0);
+  EXPECT_EQ(sheet_lines(axis, ends).vertices, (std::vector<std::uint32_t>{6}));
+  ends[0] = 1;
+  EXPECT_EQ(ends_of(sheet_lines(axis, ends)), (std::vector<std::uint32_t>{0, 8}));
+}
+
 TEST(SheetLines, OpenAClosedSurfaceWhereEIsLeast) {
   const Mesh ball = make_sphere(1, 320);
   SheetMesh sheet;
