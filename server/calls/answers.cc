@@ -74,4 +74,9 @@ void Answers::tick() {
   }
 }
 
+std::uint64_t Answers::bytes() const {
+  const base::MutexLock lock(mutex_);
+  return bytes_;
+}
+
 }  // namespace affskel::server

@@ -67,6 +67,9 @@ class Answers {
   /// Ends the calls whose peers take too little.  Call now and then.
   void tick();
 
+  /// Bytes that wait.
+  std::uint64_t bytes() const;
+
  private:
   struct Entry {
     std::uint64_t connection;
