@@ -32,8 +32,8 @@ std::uint64_t memory_need(v1::TaskKind kind, std::uint64_t mesh_bytes, const v1:
     return mesh_bytes * kPerMeshByte + params.sampling().target_points() * wire::kBytesPerPoint;
   }
   const bool refine = kind == v1::TASK_KIND_REFINE;
-  const std::uint64_t per_point =
-      wire::kBytesPerPoint + wire::skeleton_bytes_per_point(shocks) + (refine ? wire::kRefineBytesPerPoint : 0);
+  const std::uint64_t per_point = wire::kBytesPerPoint + wire::skeleton_bytes_per_point(shocks) +
+                                  (refine ? wire::kRefineBytesPerPoint : 0);
   return prepared.triangles() * (wire::kBytesPerTriangle + (refine ? wire::kRefineBytesPerTriangle : 0)) +
          prepared.points() * per_point;
 }

@@ -9,7 +9,8 @@ namespace affskel::worker {
 
 std::uint64_t bytes_of(const PreparedJob& job) {
   const bool refine = job.has_refinement();
-  return job.solid().mesh.triangles.size() * (wire::kBytesPerTriangle + (refine ? wire::kRefineBytesPerTriangle : 0)) +
+  return job.solid().mesh.triangles.size() *
+             (wire::kBytesPerTriangle + (refine ? wire::kRefineBytesPerTriangle : 0)) +
          job.lattice().points * (wire::kBytesPerPoint + (refine ? wire::kRefineBytesPerPoint : 0));
 }
 

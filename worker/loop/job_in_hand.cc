@@ -66,11 +66,11 @@ void JobInHand::make(const v1::Lease& lease, TaskContext& context) {
   // For the same reason only the first is bound in its time.
   TaskLimit limit(context, first ? options_.prepare_limit : std::chrono::seconds(0), kPreparing);
   try {
-    job_ =
-        std::make_unique<PreparedJob>(mesh, prepared_params(lease.job()), options_.threads, &limit,
-                                      first ? std::function<std::uint64_t()>([this] { return memory_left(); })
-                                            : std::function<std::uint64_t()>(),
-                                      static_cast<double>(wire::skeleton_bytes_per_point(lease.job().skeleton().operator_())));
+    job_ = std::make_unique<PreparedJob>(
+        mesh, prepared_params(lease.job()), options_.threads, &limit,
+        first ? std::function<std::uint64_t()>([this] { return memory_left(); })
+              : std::function<std::uint64_t()>(),
+        static_cast<double>(wire::skeleton_bytes_per_point(lease.job().skeleton().operator_())));
   } catch (const core::LatticeMemoryError&) {
     throw;
   } catch (const core::CoreError& error) {

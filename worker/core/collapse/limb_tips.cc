@@ -246,7 +246,8 @@ class Thinning {
     const Line& other = lines_[number];
     Line& line = lines_[last];
     if (!line.begun && !other.begun && other.length() >= kSameEnd * line.length()) {
-      for (std::size_t axis = 0; axis < 3; ++axis) line.others[axis] += other.tip_place[axis] + other.others[axis];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        line.others[axis] += other.tip_place[axis] + other.others[axis];
       line.lines += 1 + other.lines;
     }
     finish(number);

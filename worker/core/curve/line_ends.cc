@@ -78,7 +78,8 @@ class DrawEnd {
   double to_centre(const Vec3& from, const Vec3& along) const {
     const double known = std::max({0.0, dot(in_.tip - from, along), dot(at(0) - from, along)});
     // The centre of a round end lies no farther beyond it than the surface.
-    const double farthest = known + std::min(kEndMoves * in_.spacing, in_.distance.nearest(from + known * along));
+    const double farthest =
+        known + std::min(kEndMoves * in_.spacing, in_.distance.nearest(from + known * along));
     double way = 0;
     while (way < farthest && in_.solid.contains(from + (way + in_.spacing) * along) &&
            in_.distance.nearest(from + way * along) -
