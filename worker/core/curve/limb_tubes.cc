@@ -325,20 +325,58 @@ std::uint32_t LimbTubes::about_hub(std::uint32_t joint, const Vec3& at) const {
   return owner;
 }
 
+// It has no more than what the walk along lines takes to it: noise makes some within a body's hips.
+bool LimbTubes::is_handle_of(const Limb& loop, const Limb& limb) {
+  return loop.ends[0] == loop.ends[1] && loop.size <= limb.size;
+}
+
+// Of a vertex and the limbs that meet its own the nearest, which a walk along lines does not come to where it leads away
+// from a place first.
+std::uint32_t LimbTubes::nearest_beside(std::uint32_t vertex, const Vec3& at) const {
+  double least = norm(at - places_[vertex]);
+  std::uint32_t nearest = vertex;
+  const Limb& limb = limbs_[limb_of_[vertex]];
+  any_beside(limb, [&](const Limb& other) {
+    if (is_handle_of(other, limb)) return false;
+    const std::uint32_t found = own_vertex(other, nearest_in(other, at));
+    const double way = norm(at - places_[found]);
+    if (way >= least || limb_of_[found] == kNone) return false;
+    least = way;
+    nearest = found;
+    return false;
+  });
+  return nearest;
+}
+
+// Of the thicker limbs that meet one, whose tubes hold a place, the thickest; of those about as thick the one that it lies
+// deepest in.
+const LimbTubes::Limb* LimbTubes::thicker_about(const Limb& limb, const Vec3& at) const {
+  const Limb* found = nullptr;
+  double thickest = 0, least = 0;
+  for (const auto& round : limb.thicker)
+    for (const std::uint32_t number : round) {
+      const Limb& other = limbs_[number];
+      if (other.is_hidden || kClearly * other.size < thickest || !holds(other, at)) continue;
+      const double depth = depth_below(other, nearest_in(other, at), at);
+      if (found != nullptr && other.size <= kClearly * thickest && depth >= least) continue;
+      thickest = std::max(thickest, other.size);
+      found = &other;
+      least = depth;
+    }
+  return found;
+}
+
 std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const {
   if (const LimbHub* hub = hubs_.at(nearest)) return about_hub(hub->joint, at);
   if (is_joint(nearest)) nearest = off_joint(nearest, at);
   if (limb_of_[nearest] == kNone) return nearest;
+  if (is_shared_[nearest]) nearest = nearest_beside(nearest, at);
   const Limb& limb = limbs_[limb_of_[nearest]];
   const std::array<double, 2> outside{outside_hub(limb.ends[0], at), outside_hub(limb.ends[1], at)};
   const std::size_t nearer = outside[1] < outside[0] ? 1 : 0;
   if (outside[nearer] < 0) return limb.ends[nearer];
   if (!limb.is_hidden) {
-    for (const auto& thicker : limb.thicker)
-      for (const std::uint32_t number : thicker) {
-        const Limb& other = limbs_[number];
-        if (!other.is_hidden && holds(other, at)) return own_vertex(other, nearest_in(other, at));
-      }
+    if (const Limb* thicker = thicker_about(limb, at)) return own_vertex(*thicker, nearest_in(*thicker, at));
     if (!is_shared_[nearest]) return nearest;
   }
   double least =
@@ -349,10 +387,8 @@ std::uint32_t LimbTubes::vertex_of(const Vec3& at, std::uint32_t nearest) const 
     least = outside[nearer];
     owner = limb.ends[nearer];
   }
-  // A handle has no more than what is nearest to it: noise makes some within a body's hips.
   any_beside(limb, [&](const Limb& other) {
-    const bool is_handle = other.ends[0] == other.ends[1] && other.size <= limb.size;
-    if (is_handle || std::sqrt(other.box.squared_distance(at)) >= least) return false;
+    if (is_handle_of(other, limb) || std::sqrt(other.box.squared_distance(at)) >= least) return false;
     const std::size_t n = nearest_in(other, at);
     const double depth = depth_below(other, n, at);
     if (depth < least) {

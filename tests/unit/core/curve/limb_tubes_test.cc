@@ -199,6 +199,21 @@ TEST(LimbTubes, LimbsAboutAsThickShareTheirJointEvenly) {
   }
 }
 
+// Of the two halves of a bar, about as thick, neither has all that an arm leaves, nor what a walk along the arm came to.
+TEST(LimbTubes, TheHalvesOfABarShareWhatAnArmLeaves) {
+  Tubed lines;
+  const std::uint32_t joint = lines.add({0, 0, 0}, 1);
+  for (const double x : {0.1, -0.1}) lines.go(joint, {x, 0, 0}, 80, 1);
+  lines.go(joint, {0, 0.1, 0}, 60, 0.6);
+  const std::uint32_t arm = lines.nearest({0, 0.5, 0});
+  for (const double x : {0.2, 0.4, -0.2, -0.4})
+    EXPECT_GT(lines.owner({x, 0.5, 0.1}, arm).x * x, 0) << x << ", in the tubes of both halves";
+  for (const double x : {0.3, -0.3}) {
+    const std::uint32_t other = lines.nearest({-x, 0, 0});
+    EXPECT_GT(lines.owner({x, -0.2, 0}, other).x * x, 0) << x << ", nearest to the other half, they said";
+  }
+}
+
 // Noise makes loops within a body's hips: as wide as these are, they have little of them for their length.
 TEST(LimbTubes, ALoopOfLittleVolumeIsThinHoweverWideItsBalls) {
   Tubed lines;
