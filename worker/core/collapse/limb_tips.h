@@ -31,8 +31,7 @@ struct LimbTips {
 /// middle of a foot's blunt front, the line says nothing: the limb begins where that ends, and for good once it is half
 /// as long as wide.  From there on the line must have an edge whose way from there, and whose life, are `least_reach`
 /// times the time of its birth: the limb is longer than it is wide.  Its tip lies farther out, as long as the distance
-/// to the surface does not grow fast; of a flat end it lies in the middle between its
-/// corners.
+/// to the surface does not grow fast; of a flat end it lies in the middle between its corners.
 /// A function of complex, depths and heights alone.
 /// @param depth per cube: its distance to the surface, spacings; many are alike.
 /// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,

@@ -21,8 +21,8 @@ namespace affskel::core {
 /// own: a flat chest is a flat tube. Towards a joint, where sections open into other limbs, it goes on with the one
 /// that it has where it leaves the joint (JointBalls::kNear of its sizes away, and no larger than it mostly is), and ends in half an
 /// ellipsoid, no farther than where the limbs beyond part from each other. What lies there in the tube of a limb that is
-/// thicker, all in all, belongs to that, of several about as thick to the one that it lies deepest in; what lies in its own tube to that; else it belongs to the limb whose tube it lies
-/// deepest in, or is nearest to. So an arm begins where it leaves the trunk, from the armpit to the top of the shoulder,
+/// thicker, all in all, belongs to that, of several about as thick to the one that it lies deepest in; what lies in its own
+/// tube to that; else it belongs to the limb whose tube it lies deepest in, or is nearest to. So an arm begins where it leaves the trunk, from the armpit to the top of the shoulder,
 /// equal limbs share their joint evenly, and a joint itself has nothing, unless it is a hub (see limb_hubs()): then it
 /// is the thickest, and its tube is an ellipsoid. A link or loop whose line lies in the tubes of the
 /// others that it meets, whole, has nothing either. Keeps references to its arguments.
