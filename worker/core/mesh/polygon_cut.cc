@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace affskel::core {
 namespace {
@@ -39,49 +40,93 @@ void cut_quadrilateral(std::span<const Vec3> points, std::span<const std::uint32
   }
 }
 
+// Corners are known by their place in the ring.  Of those left, only such as are not convex can lie in an ear, so
+// these alone are looked at; and cutting an ear off changes what holds of its two neighbours alone.  Where rings touch
+// themselves that is not all true, so all corners are tried again a few times before a fan is taken.
 class EarClipper {
  public:
   EarClipper(std::span<const Vec3> points, std::span<const std::uint32_t> corners)
-      : points_(points), left_(corners.begin(), corners.end()), up_(polygon_area_vector(points, corners)) {}
+      : corners_(corners), up_(polygon_area_vector(points, corners)) {
+    const auto size = static_cast<std::uint32_t>(corners.size());
+    for (std::uint32_t i = 0; i < size; ++i) {
+      places_.push_back(points[corners[i]]);
+      before_.push_back((i + size - 1) % size);
+      after_.push_back((i + 1) % size);
+    }
+  }
 
   void run(std::vector<Triangle>& out) {
-    while (left_.size() > 3) {
-      const std::size_t ear = find_ear();
-      if (ear == left_.size()) break;
-      out.push_back({before(ear), left_[ear], after(ear)});
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+    std::size_t left = corners_.size();
+    for (int trial = 0; trial < kTrials && left > 3; ++trial) {
+      look_at_all();
+      for (; left > 3 && !ears_.empty(); --left) cut_off(*ears_.begin(), out);
     }
-    cut_fan(left_, out);
+    std::vector<std::uint32_t> rest;
+    for (std::uint32_t i = first_; rest.size() < left; i = after_[i]) rest.push_back(corners_[i]);
+    cut_fan(rest, out);
   }
 
  private:
-  std::uint32_t before(std::size_t i) const { return left_[(i + left_.size() - 1) % left_.size()]; }
-  std::uint32_t after(std::size_t i) const { return left_[(i + 1) % left_.size()]; }
+  static constexpr int kTrials = 8;
 
-  double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return dot(twice_area(points_[a], points_[b], points_[c]), up_);
+  bool is_convex(std::uint32_t i) const {
+    return dot(twice_area(places_[before_[i]], places_[i], places_[after_[i]]), up_) > 0;
   }
 
-  bool is_ear(std::size_t i) const {
-    const std::uint32_t a = before(i), b = left_[i], c = after(i);
-    if (!(turn(a, b, c) > 0)) return false;
-    for (std::uint32_t p : left_) {
-      if (p == a || p == b || p == c) continue;
-      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+  void look_at_all() {
+    hollow_.clear();
+    std::uint32_t i = first_;
+    do {
+      if (!is_convex(i)) hollow_.push_back({places_[i], i});
+      i = after_[i];
+    } while (i != first_);
+    do {
+      if (is_ear(i)) ears_.insert(i);
+      i = after_[i];
+    } while (i != first_);
+  }
+
+  // A corner at the place of one of the ear's is its twin, where a bridge leads to a hole and back, and not in its way.
+  bool is_ear(std::uint32_t i) const {
+    if (!is_convex(i)) return false;
+    const Vec3 &a = places_[before_[i]], &b = places_[i], &c = places_[after_[i]];
+    const Vec3 into_ca = cross(up_, a - c), into_ab = cross(up_, b - a), into_bc = cross(up_, c - b);
+    return std::none_of(hollow_.begin(), hollow_.end(), [&](const Hollow& other) {
+      const Vec3& p = other.place;
+      return dot(into_ca, p - c) >= 0 && dot(into_ab, p - a) >= 0 && dot(into_bc, p - b) >= 0 && p != a &&
+             p != b && p != c;
+    });
+  }
+
+  void cut_off(std::uint32_t ear, std::vector<Triangle>& out) {
+    const std::uint32_t a = before_[ear], c = after_[ear];
+    out.push_back({corners_[a], corners_[ear], corners_[c]});
+    after_[a] = c;
+    before_[c] = a;
+    if (first_ == ear) first_ = c;
+    ears_.erase(ear);
+    std::erase_if(hollow_,
+                  [&](const Hollow& h) { return (h.corner == a || h.corner == c) && is_convex(h.corner); });
+    for (const std::uint32_t i : {a, c}) {
+      if (is_ear(i))
+        ears_.insert(i);
+      else
+        ears_.erase(i);
     }
-    return true;
   }
 
-  std::size_t find_ear() const {
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (is_ear(i)) return i;
-    }
-    return left_.size();
-  }
+  struct Hollow {
+    Vec3 place;
+    std::uint32_t corner;
+  };
 
-  std::span<const Vec3> points_;
-  std::vector<std::uint32_t> left_;
+  std::span<const std::uint32_t> corners_;
   Vec3 up_;
+  std::vector<Vec3> places_;
+  std::vector<std::uint32_t> before_, after_;  // of those left
+  std::uint32_t first_ = 0;                    // of those left
+  std::vector<Hollow> hollow_;                 // of those left, where the ring does not turn to the left
+  std::set<std::uint32_t> ears_;               // the first one is cut off
 };
 
 }  // namespace

@@ -172,8 +172,8 @@ class OffReader {
     for (std::size_t i = 1 + sides; i < words.size(); ++i) parse_finite(words[i], rows_.line(), "colour");
     read_corners(f, sides);
     const std::size_t before = result_.mesh.triangles.size();
-    // Up to the third power of a small number of sides; see cut_polygon.
-    stop_.did(sides <= kMaxEarCorners ? sides * sides * sides / 16 : sides);
+    // Up to the square of the number of sides; see cut_polygon.
+    stop_.did(sides <= kMaxEarCorners ? sides * sides : sides);
     if (sides == 4) quads_.push_back(static_cast<std::uint32_t>(before));
     cut_polygon(result_.mesh.points, corners_, result_.mesh.triangles);
     result_.triangle_line.insert(result_.triangle_line.end(), result_.mesh.triangles.size() - before,
