@@ -112,9 +112,9 @@ class Inside {
       steepest_ = std::max({steepest_, std::abs(value - voxel(i + 1, j, k)),
                             std::abs(value - voxel(i, j + 1, k)), std::abs(value - voxel(i, j, k + 1)),
                             on_border(i, j, k) ? std::abs(value - outside_) : 0.0});
-      const bool inside = (value < isovalue_) == below_;
+      const bool inside = is_inner(value);
       for (const double next : {voxel(i + 1, j, k), voxel(i, j + 1, k), voxel(i, j, k + 1)})
-        if (((next < isovalue_) == below_) != inside) ++sides_;
+        if (is_inner(next) != inside) ++sides_;
       if (inside) reach_.include(vector_of(std::array{i, j, k}));
     });
     if (reach_.high[0] < 0)
@@ -122,8 +122,7 @@ class Inside {
                       "has no voxel on the inner side of " + base::to_text(isovalue));
     steepest_ *= std::sqrt(3.0);  // the slope along each axis at once
     clearance_ = std::make_shared<const Clearance>(
-        image.size,
-        [&](std::size_t i, std::size_t j, std::size_t k) { return (voxel(i, j, k) < isovalue_) == below_; });
+        image.size, [&](std::size_t i, std::size_t j, std::size_t k) { return is_inner(voxel(i, j, k)); });
   }
 
   double operator()(const Vec3& p) const {
@@ -145,6 +144,8 @@ class Inside {
   const Box& reach() const { return reach_; }
 
  private:
+  // A voxel of the value itself lies outside, as the function is negative within alone.
+  bool is_inner(double value) const { return below_ ? value < isovalue_ : value > isovalue_; }
   // Behind the last voxels lies the outside.
   double voxel(std::size_t i, std::size_t j, std::size_t k) const {
     return i < image_.size[0] && j < image_.size[1] && k < image_.size[2] ? image_.at(i, j, k) : outside_;
@@ -169,7 +170,7 @@ class Inside {
   bool most_of_the_border_is_above() const {
     std::int64_t above = 0;
     for_each_voxel([&](std::size_t i, std::size_t j, std::size_t k, double value) {
-      if (on_border(i, j, k)) above += value >= isovalue_ ? 1 : -1;
+      if (on_border(i, j, k)) above += value > isovalue_ ? 1 : -1;
     });
     return above > 0;
   }

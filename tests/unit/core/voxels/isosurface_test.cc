@@ -102,6 +102,23 @@ TEST(Isosurface, OfABodyIsTheBodyAtFewerTriangles) {
   for (const Vec3& p : coarse.mesh.points) EXPECT_LT(std::abs(body_function(p)), 20);
 }
 
+// Of labels 0, 1 and 2 the value 1 bounds what is above it, as 1.5 does, but nearer to the ones.
+TEST(Isosurface, AtAValueThatVoxelsHaveIsASolid) {
+  const auto shell = [](double sign, double outer, double inner) {
+    return sampled({31, 31, 31}, grid({-12, -17, -14}, 1), [=](const Vec3& p) {
+      return sign * (ball(p) < inner - 10 ? 2 : ball(p) < outer - 10 ? 1 : 0);
+    });
+  };
+  for (const double sign : {1.0, -1.0}) {
+    const Solid labels = make_solid(isosurface(shell(sign, 12, 6), {sign}).mesh);
+    EXPECT_NEAR(labels.volume / (4.0 / 3 * M_PI * 6.75 * 6.75 * 6.75), 1, 0.05);
+    if (sign < 0) continue;  // the range of values has its lower end alone
+    // The border is of the value, too.
+    const Solid bright = make_solid(isosurface(shell(sign, 100, 6), {sign}).mesh);
+    EXPECT_NEAR(bright.volume / labels.volume, 1, 1e-9);
+  }
+}
+
 TEST(Isosurface, StopsWhenAsked) {
   const VoxelImage image = sampled({31, 31, 31}, grid({-12, -17, -14}, 1), ball);
   expect_stops_wherever_it_is_asked(40, [&](ExecutionContext* context) {
