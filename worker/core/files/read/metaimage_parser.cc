@@ -11,6 +11,15 @@
 #include "core/text/text_rows.h"
 
 namespace affskel::core {
+namespace {
+
+// As MetaIO has it.
+bool says_true(const VoxelHeader& header, const char* name, bool usual = false) {
+  const std::string word = lower_case(header.word(name));
+  return word.empty() ? usual : word.front() == 't' || word.front() == '1';
+}
+
+}  // namespace
 
 bool is_metaimage(std::string_view bytes) {
   const std::string head = lower_case(bytes.substr(0, 4096));
@@ -38,10 +47,13 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
     return lower_case(without_blanks(text.substr(0, sign))) != "elementdatafile";
   });
   if (!header.has("elementdatafile")) fail_at(0, "the header does not end");
+  if (!says_true(header, "binarydata", true))
+    fail_at(header.line("binarydata"),
+            "has its numbers as text, which is not read; write them with BinaryData = True");
+  if (header.word("headersize", "0") != "0")
+    fail_at(header.line("headersize"), "skips bytes before its numbers, which is not read");
   std::optional<std::string> other;
   if (const std::string name = header.word("elementdatafile"); lower_case(name) != "local") {
-    if (header.word("headersize", "0") != "0")
-      fail_at(header.line("headersize"), "skips bytes before its numbers, which is not read");
     other = read_numbers_beside(name, header.line("elementdatafile"), beside);
   }
   VoxelImage image;
@@ -61,10 +73,9 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
   image.place =
       place_of({s[0] * Vec3{m[0], m[1], m[2]}, s[1] * Vec3{m[3], m[4], m[5]}, s[2] * Vec3{m[6], m[7], m[8]}},
                {o[0], o[1], o[2]});
-  const bool big =
-      lower_case(header.word("elementbyteordermsb", header.word("binarydatabyteordermsb").c_str())) == "true";
+  const bool big = says_true(header, "elementbyteordermsb", says_true(header, "binarydatabyteordermsb"));
   const std::size_t count = voxels_of(image.size);
-  if (lower_case(header.word("compresseddata")) == "true") other = unpack(other ? *other : data);
+  if (says_true(header, "compresseddata")) other = unpack(other ? *other : data);
   image.numbers = numbers_of(count, data, std::move(other), kind->second, big);
   return image;
 }

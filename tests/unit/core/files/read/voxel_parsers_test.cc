@@ -110,6 +110,20 @@ TEST(ParseVoxels, AHeaderDoesNotChooseWhatIsRead) {
   EXPECT_NE(image_refusal(mhd("body.raw")).find("another file"), std::string::npos);
 }
 
+// What is skipped or written as text would be taken for the numbers' bytes.
+TEST(ParseVoxels, AMetaImageOfTextOrWithBytesBeforeItsNumbersIsRefused) {
+  const std::string data = bytes_of<float>(false);
+  EXPECT_NE(image_refusal(metaimage("MET_UCHAR", "BinaryData = False\n", std::string(48, '1')))
+                .find("line 8: has its numbers as text"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(metaimage("MET_FLOAT", "HeaderSize = 12\n", data)).find("skips bytes"),
+            std::string::npos);
+  for (const char* is_binary : {"True", "true", "1", ""})
+    expect_image(parse_voxels(
+        metaimage("MET_FLOAT", std::string("HeaderSize = 0\nBinaryData = ") + is_binary + "\n", data)));
+  expect_image(parse_voxels(metaimage("MET_FLOAT", "BinaryDataByteOrderMSB = T\n", bytes_of<float>(true))));
+}
+
 TEST(ParseVoxels, SaysWhatIsWrong) {
   const std::string raw = "encoding: raw\n", data = bytes_of<float>(false);
   EXPECT_NE(image_refusal(nrrd("float", raw, data.substr(1))).find("24 voxels announced, but only"),
