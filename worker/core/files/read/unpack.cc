@@ -46,6 +46,7 @@ void inflate_members(std::string_view bytes, Unpacked& out) {
   z_stream stream{};
   if (inflateInit2(&stream, kEither) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, decltype(&inflateEnd)> ended(&stream, inflateEnd);
+  bool ended_member = false;
   while (!bytes.empty()) {
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
     stream.avail_in =
@@ -59,15 +60,14 @@ void inflate_members(std::string_view bytes, Unpacked& out) {
       damaged("gzip", stream.msg != nullptr ? stream.msg : "it is cut off");
     out.add(piece, piece.size() - stream.avail_out);
     bytes.remove_prefix(given - stream.avail_in);
-    if (result == Z_STREAM_END) {
+    ended_member = result == Z_STREAM_END;
+    if (ended_member) {
       // Tapes and some tools fill up with zeros behind the last member.
       bytes.remove_prefix(std::min(bytes.find_first_not_of('\0'), bytes.size()));
-      if (bytes.empty()) return;
       inflateReset(&stream);
-    } else if (bytes.empty() && stream.avail_out > 0) {
-      damaged("gzip", "it is cut off");
     }
   }
+  if (!ended_member) damaged("gzip", "it is cut off");
 }
 
 void decompress_frames(std::string_view bytes, Unpacked& out) {

@@ -55,6 +55,10 @@ TEST(Unpack, WhatIsDamagedOrCutOffIsRefused) {
     for (std::size_t size = 4; size < bytes.size(); ++size)
       EXPECT_EQ(refusal(bytes.substr(0, size)), CoreError::Code::kBadInput) << size;
   }
+  // Where what comes out fills a piece just when the bytes end.
+  const std::string even = gzipped(std::string(300000, 'x'));
+  for (std::size_t size = 20; size < even.size(); ++size)
+    EXPECT_EQ(refusal(even.substr(0, size)), CoreError::Code::kBadInput) << size;
   std::string changed = gzipped(numbers());
   changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 16);
   EXPECT_EQ(refusal(changed), CoreError::Code::kBadInput) << "its checksum differs";
