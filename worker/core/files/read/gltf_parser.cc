@@ -9,6 +9,7 @@
 
 #include "base/coding.h"
 #include "core/base/affine_map.h"
+#include "core/base/error.h"
 #include "core/files/base64.h"
 #include "core/files/read/shape_parsers.h"
 #include "core/text/text_rows.h"
@@ -22,6 +23,10 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostValues = 400'000;
+// Nodes may draw one mesh again and again: triangles and primitives drawn, ...
+constexpr std::uint64_t kFewTriangles = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxDraws = 10;  // ... and above these so many times what the bytes can hold, ...
+constexpr std::uint64_t kTriangleBytes = 12;  // ... of which a triangle has three indices of four bytes
 constexpr std::string_view kBase64 = ";base64,";
 constexpr const char* kAsGlb = "; export it as .glb without compression, or as .ply or .stl";
 constexpr int kTriangles = 4, kStrip = 5, kFan = 6;  // modes of primitives; below are points and lines
@@ -52,7 +57,11 @@ std::string number_digits(std::string_view text, std::vector<std::string_view>& 
 class Gltf {
  public:
   Gltf(json text, std::vector<std::string_view> digits, std::string_view binary)
-      : text_(std::move(text)), digits_(std::move(digits)), binary_(binary) {}
+      : text_(std::move(text)), digits_(std::move(digits)), binary_(binary) {
+    std::uint64_t bytes = binary_.size();
+    for (const std::string_view text_of_bytes : digits_) bytes += text_of_bytes.size() / 4 * 3;
+    most_ = kFewTriangles + kMaxDraws * (bytes / kTriangleBytes);
+  }
 
   ShapeFile run() {
     for (const json& needed : list(text_, "extensionsRequired")) {
@@ -185,6 +194,12 @@ class Gltf {
            const std::string& place) {
     const bool mirrored = determinant(map) < 0;
     const std::size_t step = mode == kTriangles ? 3 : 1, count = at ? at->count : points.count;
+    drawn_triangles_ += 1 + count / step;
+    if (drawn_triangles_ > most_)
+      throw CoreError(
+          CoreError::Code::kLimit,
+          place + ": nodes draw more than " + std::to_string(kMaxDraws) +
+              " times the triangles that the file's bytes can hold; export its triangles as .ply or .stl");
     for (std::size_t i = 0; i + 2 < count; i += step) {
       std::size_t a = mode == kFan ? 0 : i, b = i + 1, c = i + 2;
       if (mirrored != (mode == kStrip && i % 2 == 1)) std::swap(b, c);
@@ -274,6 +289,7 @@ class Gltf {
   std::string_view binary_;                     // the binary part of a .glb
   std::map<std::size_t, std::string> decoded_;  // by buffer; views of them stay
   std::vector<bool> drawn_;                     // by node
+  std::uint64_t drawn_triangles_ = 0, most_ = 0;
   CornerSurface surface_;
   std::uint64_t others_ = 0;  // primitives of points and lines
 };

@@ -204,10 +204,19 @@ MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) 
 
 }  // namespace
 
+void check_counts(std::uint64_t points, std::uint64_t triangles) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 28;
+  if (points > kMost || triangles > kMost)
+    throw CoreError(CoreError::Code::kLimit, "has " + std::to_string(points) + " vertices and " +
+                                                 std::to_string(triangles) + " triangles; more than " +
+                                                 std::to_string(kMost) + " of either are not read");
+}
+
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
   refuse_other_kinds(bytes);
   const std::string_view told = told_extension(bytes);
   ShapeFile file = parser_for(told.empty() ? extension : told)(bytes);
+  check_counts(file.mesh().points.size(), file.mesh().triangles.size());
   turn_doubled_diagonals(file.quads, file.off.mesh.triangles);
   check_finite(file);
   return file;
@@ -224,7 +233,9 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, con
   const std::string_view kind = !told.empty() ? told : holds_mesh(extension) ? extension : ".off";
   if (kind == ".off" && !is_binary_off(bytes)) {
     if (extension != ".off") refuse_unknown_kinds(bytes);
-    return {"off", true, read_off(bytes), {}};
+    MeshFile file{"off", true, read_off(bytes), {}};
+    check_counts(file.off.mesh.points.size(), file.off.mesh.triangles.size());
+    return file;
   }
   ShapeFile shape = parse_shape(kind, bytes);
   if (!shape.segments.empty()) shape.off.passed_over.push_back({"curves", shape.segments.size(), 0});

@@ -9,8 +9,8 @@
 
 namespace affskel::core {
 
-// One parser per format; see read_shape.  All leave `path` empty and throw CoreError kBadInput, with the line
-// for text.
+// One parser per format; see read_shape.  All leave `path` empty and throw CoreError kBadInput, with the line for text;
+// those of glTF and 3MF kLimit, too, when they place meshes so often that they grow without bound.
 
 ShapeFile parse_csv(std::string_view bytes);
 ShapeFile parse_dat(std::string_view bytes);
@@ -28,6 +28,10 @@ bool is_binary_off(std::string_view bytes);
 
 /// Whether the size is what the count of triangles in a binary STL file makes it.
 bool is_binary_stl(std::string_view bytes);
+
+/// What everything behind the parsers can number.
+/// @throws CoreError kLimit for more than 2^28 of either.
+void check_counts(std::uint64_t points, std::uint64_t triangles);
 
 /// Cuts a polygon into triangles of `file`.
 /// @param place names it in messages, @param line of it, 0 = none.

@@ -153,6 +153,21 @@ TEST(MeshFormats, GltfSaysWhatItCannotRead) {
   EXPECT_NE(refusal(many + "]}").find("values in its JSON"), std::string::npos);
 }
 
+// Nodes that draw one mesh again and again, and primitives that name the same bytes.
+TEST(MeshFormats, GltfIsBoundedHoweverItGrows) {
+  const GltfParts once = gltf_parts(make_sphere(1, 5000));
+  const json node = once.text["nodes"][0], primitive = once.text["meshes"][0]["primitives"][0];
+  for (const std::size_t times : {100, 400}) {
+    GltfParts nodes = once, primitives = once;
+    nodes.text.erase("scenes");  // all nodes are drawn
+    nodes.text["nodes"] = std::vector<json>(times, node);
+    primitives.text["meshes"][0]["primitives"] = std::vector<json>(times, primitive);
+    for (const GltfParts& parts : {nodes, primitives})
+      EXPECT_EQ(refusal(glb(parts)).find("draw more than 10 times") != std::string::npos, times == 400)
+          << refusal(glb(parts));
+  }
+}
+
 TEST(MeshFormats, ThreemfPlacesObjectsInObjects) {
   const std::string one = object_text(box(), "1");
   expect_box(parse_mesh_file(".3mf", threemf(one, "<item objectid=\"1\"/>")), "3mf");

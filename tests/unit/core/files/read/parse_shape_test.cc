@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/files/read/shape_parsers.h"
 
 namespace affskel::core {
 namespace {
@@ -39,6 +40,20 @@ TEST(ParseMeshFile, KindIsToldByTheContent) {
       EXPECT_EQ(file.format, kind) << extension;
       EXPECT_EQ(file.off_text, kind == "off") << extension;
       EXPECT_EQ(file.off.mesh.triangles.size(), 1U) << kind << extension;
+    }
+  }
+}
+
+// Such files are too large to be made here.
+TEST(ParseShape, MoreThanCanBeNumberedIsRefused) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 28;
+  EXPECT_NO_THROW(check_counts(kMost, kMost));
+  for (const auto& [points, triangles] : {std::pair(kMost + 1, kMost), std::pair(kMost, kMost + 1)}) {
+    try {
+      check_counts(points, triangles);
+      ADD_FAILURE();
+    } catch (const CoreError& error) {
+      EXPECT_EQ(error.code(), CoreError::Code::kLimit);
     }
   }
 }
