@@ -15,6 +15,7 @@ namespace {
 constexpr double kNearOfDiagonal = 1e-6;  // of the box: what lies so near may be parted by rounding
 constexpr double kNearOfEdge = 1e-2;      // of an end of open edges, from another
 constexpr double kJunctionOfEdge = 1e-3;  // of a T-junction, from the edge
+constexpr std::uint64_t kVisit = 100;     // of a tree, some nanoseconds each
 constexpr int kEdgesOfATriangle = 3;      // it may have junctions on each
 
 // An end of open edges, and how far from it another may lie.
@@ -23,7 +24,6 @@ struct OpenEnd {
   double tolerance;
 };
 
-// By x.
 std::vector<OpenEnd> open_ends(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   const double none = std::numeric_limits<double>::infinity();
   std::vector<double> shortest(points.size(), none);  // open edge at a point
@@ -36,10 +36,6 @@ std::vector<OpenEnd> open_ends(const std::vector<Vec3>& points, const std::vecto
   std::vector<OpenEnd> ends;
   for (std::uint32_t p = 0; p < points.size(); ++p)
     if (shortest[p] < none) ends.push_back({p, std::min(most, kNearOfEdge * shortest[p])});
-  std::sort(ends.begin(), ends.end(), [&](const OpenEnd& a, const OpenEnd& b) {
-    const double of_a = points[a.point].x, of_b = points[b.point].x;
-    return of_a != of_b ? of_a < of_b : a.point < b.point;
-  });
   return ends;
 }
 
@@ -113,16 +109,24 @@ class Junctions {
 
 }  // namespace
 
-std::uint64_t join_near_points(const std::vector<Vec3>& points, std::vector<Triangle>& triangles) {
+std::uint64_t join_near_points(const std::vector<Vec3>& points, std::vector<Triangle>& triangles,
+                               ExecutionContext* context) {
+  StopCheck stop(context);
   const std::vector<OpenEnd> ends = open_ends(points, triangles);
+  std::vector<Box> boxes(ends.size());
+  for (std::size_t e = 0; e < ends.size(); ++e) boxes[e].include(points[ends[e].point]);
+  const BoxTree tree(std::move(boxes));
   DisjointSets same(points.size());
   std::uint64_t joined = 0;
-  for (std::size_t a = 0; a < ends.size(); ++a) {
+  for (std::uint32_t a = 0; a < ends.size(); ++a) {
     const Vec3& at = points[ends[a].point];
-    for (std::size_t b = a + 1; b < ends.size() && points[ends[b].point].x - at.x <= ends[a].tolerance; ++b) {
-      if (norm(points[ends[b].point] - at) > std::min(ends[a].tolerance, ends[b].tolerance)) continue;
+    const double near = ends[a].tolerance;
+    stop.did(kVisit);
+    tree.visit_above(Box{at, at}.widened(near), a, [&](std::uint32_t b) {
+      stop.did(1);
+      if (norm(points[ends[b].point] - at) > std::min(near, ends[b].tolerance)) return;
       joined += same.unite(ends[a].point, ends[b].point) ? 1 : 0;
-    }
+    });
   }
   if (joined == 0) return 0;
   for (Triangle& t : triangles)

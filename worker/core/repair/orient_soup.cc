@@ -58,7 +58,7 @@ std::uint64_t turned_since(const std::vector<Polygon>& before, const Soup& soup)
 
 }  // namespace
 
-OrientedSoup orient_soup(const Mesh& mesh) {
+OrientedSoup orient_soup(const Mesh& mesh, ExecutionContext* context) {
   OrientedSoup oriented;
   Soup soup = soup_of(mesh);
   oriented.unused_points = PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
@@ -73,7 +73,7 @@ OrientedSoup orient_soup(const Mesh& mesh) {
   if (soup.triangles.empty())
     throw CoreError(CoreError::Code::kBadInput, "no triangle with three different corners");
   Mesh split = core_mesh(soup);
-  oriented.joined_points = join_near_points(split.points, split.triangles);
+  oriented.joined_points = join_near_points(split.points, split.triangles, context);
   drop_unused_points(split);
   const std::size_t points = split.points.size();
   oriented.junctions = split_t_junctions(split.points, split.triangles);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -25,7 +26,8 @@ struct OrientedSoup {
 
 /// Makes a surface of triangles in any order and sense (CGAL's repair and orientation of polygon soups, stitching of
 /// borders).  Points do not move.
-/// @param mesh with finite points. @throws CoreError kBadInput when no triangle is left.
-OrientedSoup orient_soup(const Mesh& mesh);
+/// @param mesh with finite points. @param context may be null.
+/// @throws CoreError kBadInput when no triangle is left, kCancelled.
+OrientedSoup orient_soup(const Mesh& mesh, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

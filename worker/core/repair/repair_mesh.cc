@@ -72,7 +72,7 @@ class Mending {
   }
 
   void orient(const Mesh& mesh) {
-    OrientedSoup soup = orient_soup(mesh);
+    OrientedSoup soup = orient_soup(mesh, options_.context);
     tell("welded-points", soup.welded_points, "point", " at the place of another joined to it");
     tell("joined-points", soup.joined_points, "point",
          " within a millionth of the size of another joined to it");
