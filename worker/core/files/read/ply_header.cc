@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <limits>
+#include <set>
 
 #include "core/text/text_rows.h"
 
@@ -103,6 +104,7 @@ class HeaderReader {
 
   void read_element() {
     if (words_.size() != 3) fail("expected 'element NAME COUNT'");
+    names_.clear();
     header_.elements.push_back(
         {std::string(words_[1]), parse_count(words_[2], header_.lines, "the count"), {}});
   }
@@ -121,17 +123,16 @@ class HeaderReader {
       fail("expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
     }
     property.name = std::string(words_.back());
-    std::vector<PlyProperty>& known = header_.elements.back().properties;
-    if (std::any_of(known.begin(), known.end(),
-                    [&](const PlyProperty& p) { return p.name == property.name; })) {
+    if (!names_.insert(words_.back()).second) {
       fail("two properties of element " + quoted_excerpt(header_.elements.back().name) + " are called " +
            quoted_excerpt(property.name));
     }
-    known.push_back(std::move(property));
+    header_.elements.back().properties.push_back(std::move(property));
   }
 
   std::string_view rest_;
   std::vector<std::string_view> words_;
+  std::set<std::string_view> names_;  // of the last element's properties
   PlyHeader header_;
 };
 

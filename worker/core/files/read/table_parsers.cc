@@ -1,6 +1,6 @@
 // Points as rows of numbers: .csv with a header line, .xyz and .dat without.
-#include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "core/files/read/shape_parsers.h"
@@ -30,8 +30,9 @@ Header read_header(const std::vector<std::string_view>& names, std::uint64_t lin
   Header header;
   header.width = names.size();
   std::array<bool, 3> found{};
+  std::set<std::string_view> seen;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::count(names.begin(), names.end(), names[i]) > 1) {
+    if (!seen.insert(names[i]).second) {
       fail_at(line, "two columns are called " + quoted_excerpt(names[i]));
     }
     if (names[i] == "x" || names[i] == "y" || names[i] == "z") {

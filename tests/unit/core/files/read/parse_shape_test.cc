@@ -18,6 +18,15 @@ std::string binary_stl(std::string header) {
   return header + std::string("\1\0\0\0", 4) + std::string(50, '\0');
 }
 
+std::string refusal(std::string_view extension, std::string_view bytes) {
+  try {
+    parse_mesh_file(extension, bytes);
+  } catch (const CoreError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 constexpr std::string_view kTriangle = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 // Whatever the file is called.
@@ -65,6 +74,27 @@ TEST(ParseMeshFile, ABinaryStlsHeaderMayBeginWithAnything) {
   EXPECT_THROW(parse_mesh_file(".off", binary_stl("ply") + "\n"), CoreError) << "too long for its count";
 }
 
+// A quadratic check of the names takes more than a minute for these.
+TEST(ParseShape, ManyColumnsAreReadInTimeThatGrowsWithThem) {
+  constexpr int kColumns = 200000;
+  std::string
+      csv = "x,y,z",
+      ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n",
+      values = "0,0,0", words = "0 0 0";
+  for (int c = 0; c < kColumns; ++c) {
+    const std::string name = "c" + std::to_string(c);
+    csv += "," + name;
+    ply += "property char " + name + "\n";
+    values += ",0";
+    words += " 0";
+  }
+  EXPECT_EQ(parse_shape(".csv", csv + "\n" + values + "\n").columns.size(), std::size_t{kColumns});
+  EXPECT_EQ(parse_shape(".ply", ply + "end_header\n" + words + "\n").columns.size(), std::size_t{kColumns});
+  EXPECT_NE(refusal(".csv", csv + ",c7\n").find("two columns are called 'c7'"), std::string::npos);
+  EXPECT_NE(refusal(".ply", ply + "property char c7\nend_header\n").find("are called 'c7'"),
+            std::string::npos);
+}
+
 TEST(ParseShape, JoinsCornersOfStlInTheirOrderBe0Negative) {
   const auto facet = [](const char* a, const char* b, const char* c) {
     std::string text = "facet normal 0 0 0\nouter loop\n";
@@ -99,15 +129,6 @@ TEST(ParseShape, FacesOfTwoCornersAreCurvesWhereThatIsSaid) {
   EXPECT_EQ(counts("comment curves 2\n", "3 2 1 0"), std::pair(2ul, 1ul));
   EXPECT_EQ(counts("comment curves 99999999999999999999\n", "3 1 2 2"), std::pair(3ul, 0ul));
   EXPECT_EQ(counts("comment curves 99\n", "3 1 2 2"), std::pair(1ul, 2ul));
-}
-
-std::string refusal(std::string_view extension, std::string_view bytes) {
-  try {
-    parse_mesh_file(extension, bytes);
-  } catch (const CoreError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // By what they begin with, whatever they are called.
