@@ -119,11 +119,11 @@ std::string object_text(const Mesh& mesh, const std::string& id) {
   return text + "</triangles></mesh></object>";
 }
 
-std::string threemf(const std::string& resources, const std::string& items) {
+std::string threemf(const std::string& resources, const std::string& items, const std::string& attributes) {
   const std::string model =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" "
-      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>" +
-      resources + "</resources><build>" + items + "</build></model>";
+      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" " +
+      attributes + "><resources>" + resources + "</resources><build>" + items + "</build></model>";
   const std::string told =
       "<?xml version=\"1.0\"?><Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
       "<Relationship Target=\"/3D/body.model\" Id=\"r\" "

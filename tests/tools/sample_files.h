@@ -29,7 +29,9 @@ std::string gltf(GltfParts parts);
 std::string archive(const std::vector<std::pair<std::string, std::string>>& texts);
 /// A mesh as an object of 3MF.
 std::string object_text(const core::Mesh& mesh, const std::string& id);
-std::string threemf(const std::string& resources, const std::string& items);
+/// @param attributes of the model, more.
+std::string threemf(const std::string& resources, const std::string& items,
+                    const std::string& attributes = "");
 
 /// The 24 grey values of the images below, 3 x 4 x 2 voxels.
 std::vector<float> grey_values();

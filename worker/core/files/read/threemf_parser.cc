@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/affine_map.h"
@@ -23,6 +26,11 @@ constexpr const char* kInstead = "; export its triangles as .ply or .stl";
 constexpr std::uint64_t kFewItems = std::uint64_t{1} << 20;  // triangles, vertices and placed objects, ...
 constexpr std::uint64_t kMaxCopies = 10;  // ... and above these so many times what the file holds
 constexpr int kMaxNesting = 32;           // of components in components
+// Extensions that change no triangle, as their namespaces begin; that objects are in other files is told there.
+constexpr std::array<std::string_view, 3> kHarmless = {
+    "http://schemas.microsoft.com/3dmanufacturing/material/",
+    "http://schemas.microsoft.com/3dmanufacturing/production/",
+    "http://schemas.microsoft.com/3dmanufacturing/trianglesets/"};
 
 struct Component {
   std::string object;
@@ -49,20 +57,32 @@ AffineMap map_of(const XmlElement& element) {
   return {{Vec3{m(0), m(3), m(6)}, Vec3{m(1), m(4), m(7)}, Vec3{m(2), m(5), m(8)}}, {m(9), m(10), m(11)}};
 }
 
+// Extensions have elements of the same names, such as the vertices of slices: only those of the root's namespace count.
 class Model final : public XmlHandler {
  public:
+  void declare(std::string_view prefix, std::string_view space) override {
+    spaces_[std::string(prefix)] = space;
+  }
+
   Next open(const XmlElement& element) override {
-    std::string_view name = element.name;
-    name.remove_prefix(std::min(name.find(':') + 1, name.size()));
+    const std::size_t behind = element.name.find('|') + 1;  // 0 where there is none
+    const std::string_view space = element.name.substr(0, behind), name = element.name.substr(behind);
+    if (!own_space_) {
+      own_space_ = space;
+      check_extensions(element);
+    }
+    if (space != *own_space_) return Next::kReadOn;
     if (name == "object") {
-      object_ = &objects_[element.attribute("id")];
+      const auto [object, is_new] = objects_.try_emplace(element.attribute("id"));
+      if (!is_new) fail_at(element.line, "a second object has the id " + quoted_excerpt(object->first));
+      object_ = &object->second;
     } else if (name == "vertex") {
       mesh(element).points.push_back({number(element, "x"), number(element, "y"), number(element, "z")});
     } else if (name == "triangle") {
       mesh(element).triangles.push_back(
           {corner(element, "v1"), corner(element, "v2"), corner(element, "v3")});
     } else if (name == "component" || name == "item") {
-      if (!element.attribute("p:path").empty())
+      if (is_elsewhere(element))
         fail_at(element.line,
                 std::string("has objects in other files of the archive, which are not read") + kInstead);
       Component component{element.attribute("objectid"), map_of(element), element.line};
@@ -81,6 +101,24 @@ class Model final : public XmlHandler {
   }
 
  private:
+  void check_extensions(const XmlElement& element) const {
+    const std::string text = element.attribute("requiredextensions");
+    TextWords prefixes(text);
+    for (std::string_view prefix = prefixes.next(); !prefix.empty(); prefix = prefixes.next()) {
+      const auto known = spaces_.find(prefix);
+      const std::string space = known == spaces_.end() ? "" : known->second;
+      const auto begins = [&](std::string_view start) { return space.starts_with(start); };
+      if (!std::any_of(kHarmless.begin(), kHarmless.end(), begins))
+        fail_at(element.line, "needs the extension " + quoted_excerpt(prefix) + " (" + space.substr(0, 100) +
+                                  "), which is not read" + kInstead);
+    }
+  }
+  // By an attribute of the extension for production.
+  static bool is_elsewhere(const XmlElement& element) {
+    for (const char** a = element.attributes; *a != nullptr; a += 2)
+      if (std::string_view(a[0]).ends_with("|path") && *a[1] != '\0') return true;
+    return false;
+  }
   Object& held(const XmlElement& element) {
     if (object_ == nullptr) fail_at(element.line, std::string(element.name) + " outside of an object");
     return *object_;
@@ -108,13 +146,20 @@ class Model final : public XmlHandler {
       throw CoreError(CoreError::Code::kLimit, "is built of more than " + std::to_string(kMaxCopies) +
                                                    " times the triangles that it holds" + kInstead);
     const auto first = static_cast<std::uint32_t>(whole.points.size());
-    for (const Vec3& point : mesh.points) whole.points.push_back(map(point));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      whole.points.push_back(map(mesh.points[i]));
+      if (!is_finite(whole.points.back()))
+        fail_at(component.line, "vertex " + std::to_string(i) + " of object " +
+                                    quoted_excerpt(component.object) + " is not finite where it is placed");
+    }
     const bool mirrored = determinant(map) < 0;
     for (const Triangle& t : mesh.triangles)
       whole.triangles.push_back({first + t[0], first + t[mirrored ? 2 : 1], first + t[mirrored ? 1 : 2]});
     for (const Component& inner : found->second.components) add(inner, map, depth + 1, whole);
   }
 
+  std::map<std::string, std::string, std::less<>> spaces_;  // by prefix
+  std::optional<std::string> own_space_;
   std::map<std::string, Object> objects_;
   Object* object_ = nullptr;  // the one that is read
   std::vector<Component> built_;
@@ -176,7 +221,8 @@ ShapeFile parse_3mf(std::string_view bytes) {
   if (text.empty())
     fail_at(0, "is an archive without a 3D model; unpack it, and take the mesh that is in it");
   Model model;
-  if (read_xml(text, model) != XmlEnd::kComplete) fail_at(0, name + " within the archive is cut off");
+  if (read_xml(text, model, XmlNames::kOfSpaces) != XmlEnd::kComplete)
+    fail_at(0, name + " within the archive is cut off");
   return model.take();
 }
 

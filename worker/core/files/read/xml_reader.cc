@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <set>
+#include <utility>
 
 #include "core/text/text_rows.h"
 
@@ -18,16 +19,23 @@ constexpr std::size_t kPiece = kMaxTag / 4;            // what libexpat is given
 constexpr std::size_t kMaxDepth = 100;
 // libexpat keeps every name that it has met.
 constexpr std::size_t kMaxNames = 1000;
+constexpr std::size_t kMaxSpace = 1024;  // bytes of a namespace's name, which stands in every name
+constexpr char kBehindSpace = '|';
 
 class Reader {
  public:
-  Reader(std::string_view bytes, XmlHandler& handler)
-      : bytes_(bytes), handler_(handler), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+  Reader(std::string_view bytes, XmlHandler& handler, XmlNames names)
+      : bytes_(bytes),
+        handler_(handler),
+        parser_(names == XmlNames::kOfSpaces ? XML_ParserCreateNS(nullptr, kBehindSpace)
+                                             : XML_ParserCreate(nullptr),
+                XML_ParserFree) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), on_open, on_close);
     XML_SetCharacterDataHandler(parser_.get(), on_text);
     XML_SetStartDoctypeDeclHandler(parser_.get(), on_doctype);
+    XML_SetStartNamespaceDeclHandler(parser_.get(), on_space);
   }
 
   XmlEnd run() {
@@ -91,16 +99,35 @@ class Reader {
     });
   }
 
-  XmlHandler::Next open(const char* name, const char** attributes) {
-    if (++depth_ > kMaxDepth) {
-      fail_at(line(), "elements of XML are nested more than " + std::to_string(kMaxDepth) + " deep");
-    }
-    names_.insert(name);
-    for (const char** a = attributes; *a != nullptr; a += 2) names_.insert(*a);
+  static void on_space(void* reader, const char* prefix, const char* space) {
+    guarded(reader, [&](Reader& self) {
+      self.declare(prefix == nullptr ? "" : prefix, space == nullptr ? "" : space);
+      return XmlHandler::Next::kReadOn;
+    });
+  }
+
+  void declare(const std::string& prefix, std::string_view space) {
+    if (space.size() > kMaxSpace)
+      fail_at(line(), "a namespace of XML has a name of more than " + std::to_string(kMaxSpace) + " bytes");
+    count_name("xmlns:" + prefix);
+    handler_.declare(prefix, space);
+  }
+
+  void count_name(std::string name) {
+    names_.insert(std::move(name));
     if (names_.size() > kMaxNames) {
       fail_at(line(), "elements and attributes of XML have more than " + std::to_string(kMaxNames) +
                           " different names");
     }
+  }
+
+  XmlHandler::Next open(const char* name, const char** attributes) {
+    if (++depth_ > kMaxDepth) {
+      fail_at(line(), "elements of XML are nested more than " + std::to_string(kMaxDepth) + " deep");
+    }
+    has_element_ = true;
+    count_name(name);
+    for (const char** a = attributes; *a != nullptr; a += 2) count_name(*a);
     return handler_.open({name, attributes, line(), byte_index() + byte_count()});
   }
 
@@ -116,7 +143,7 @@ class Reader {
       case XML_ERROR_NO_MEMORY:
         throw std::bad_alloc();
       case XML_ERROR_NO_ELEMENTS:
-        return names_.empty() ? XmlEnd::kNoElement : XmlEnd::kCutOff;
+        return has_element_ ? XmlEnd::kCutOff : XmlEnd::kNoElement;
       case XML_ERROR_SYNTAX:
         return XmlEnd::kNoElement;  // there is text in front of the first element
       case XML_ERROR_UNCLOSED_TOKEN:
@@ -136,6 +163,7 @@ class Reader {
   std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
   std::set<std::string> names_;
   std::size_t depth_ = 0;
+  bool has_element_ = false;
   bool stopped_ = false;
   std::exception_ptr error_;
 };
@@ -149,8 +177,8 @@ std::string XmlElement::attribute(std::string_view which) const {
   return "";
 }
 
-XmlEnd read_xml(std::string_view bytes, XmlHandler& handler) {
-  return Reader(bytes, handler).run();
+XmlEnd read_xml(std::string_view bytes, XmlHandler& handler, XmlNames names) {
+  return Reader(bytes, handler, names).run();
 }
 
 }  // namespace affskel::core

@@ -18,12 +18,20 @@ struct XmlElement {
   std::string attribute(std::string_view which) const;
 };
 
+/// How elements and attributes are called.
+enum class XmlNames {
+  kAsWritten,  ///< with their prefixes
+  kOfSpaces,   ///< "NAMESPACE|name", or "name" in none
+};
+
 /// Takes the contents of an XML text in their order; comments and processing instructions are left out.
 class XmlHandler {
  public:
   enum class Next { kReadOn, kStop };
 
   virtual ~XmlHandler() = default;
+  /// With XmlNames::kOfSpaces, before the element that declares it: a prefix, empty for none, and what it stands for.
+  virtual void declare(std::string_view /*prefix*/, std::string_view /*space*/) {}
   /// After kStop, here and below, nothing behind the tag is looked at: it need not be XML.
   virtual Next open(const XmlElement& element) = 0;
   /// The end of an element, also of an empty one, with the line of its tag.
@@ -42,10 +50,10 @@ enum class XmlEnd {
 };
 
 /// Reads an XML text by libexpat.  Memory is bounded whatever the bytes: a tag or comment has at most 1 MiB,
-/// elements are nested at most 100 deep and have with their attributes at most 1000 different names, and
-/// there are no entities but the predefined ones, since document types are refused.
+/// elements are nested at most 100 deep and have with their attributes and namespaces' prefixes at most 1000 different
+/// names, those of namespaces at most 1024 bytes, and there are no entities but the predefined ones, since document types are refused.
 /// @throws CoreError kBadInput with the line for what is not well-formed or beyond these bounds, and what the
 /// handler throws.
-XmlEnd read_xml(std::string_view bytes, XmlHandler& handler);
+XmlEnd read_xml(std::string_view bytes, XmlHandler& handler, XmlNames names = XmlNames::kAsWritten);
 
 }  // namespace affskel::core

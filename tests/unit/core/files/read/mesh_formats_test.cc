@@ -189,9 +189,47 @@ TEST(MeshFormats, ThreemfPlacesObjectsInObjects) {
                             "<item objectid=\"2\"/>"))
                 .find("deep"),
             std::string::npos);
-  EXPECT_NE(refusal(threemf(one, "<item objectid=\"1\" p:path=\"/3D/other.model\"/>")).find("other files"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(
+          threemf(
+              one,
+              "<item objectid=\"1\" xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" p:path=\"/3D/other.model\"/>"))
+          .find("other files"),
+      std::string::npos);
   EXPECT_NE(refusal(archive({{"readme.txt", "none"}})).find("without a 3D model"), std::string::npos);
+}
+
+// Slices have vertices, too, and what a model needs is told by prefixes.
+TEST(MeshFormats, ThreemfReadsTheElementsOfItsCoreAlone) {
+  const std::string one = object_text(box(), "1"), item = "<item objectid=\"1\"/>",
+                    space = "http://schemas.microsoft.com/3dmanufacturing/",
+                    slices = "<s:slicestack xmlns:s=\"" + space +
+                             "slice/2015/07\" id=\"5\"><s:slice><s:vertices><s:vertex x=\"0\" y=\"0\"/>"
+                             "</s:vertices></s:slice></s:slicestack>";
+  expect_box(parse_mesh_file(".3mf", threemf(slices + one, item)), "3mf");
+  expect_box(parse_mesh_file(".3mf", threemf(one + slices, item)), "3mf");
+  const auto needs = [&](const std::string& name) {
+    return threemf(one, item, "requiredextensions=\"q\" xmlns:q=\"" + name + "\"");
+  };
+  expect_box(parse_mesh_file(".3mf", needs(space + "material/2015/02")), "3mf");
+  EXPECT_NE(refusal(needs("http://example.org/unknown"))
+                .find("needs the extension 'q' (http://example.org/unknown)"),
+            std::string::npos);
+  EXPECT_NE(refusal(threemf(one, item, "requiredextensions=\"p q\"")).find("needs the extension 'p'"),
+            std::string::npos);
+  EXPECT_NE(refusal(threemf(one + object_text(box(), "1"), item)).find("a second object has the id '1'"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal(threemf("<m:x xmlns:m=\"" + std::string(1025, 'm') + "\"/>" + one, item)).find("namespace"),
+      std::string::npos);
+}
+
+TEST(MeshFormats, ThreemfNamesAPlaceThatIsNotFinite) {
+  const Mesh far{{{1e300, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}};
+  EXPECT_NE(refusal(threemf(object_text(far, "7"),
+                            "<item objectid=\"7\" transform=\"1e10 0 0 0 1 0 0 0 1 0 0 0\"/>"))
+                .find("vertex 0 of object '7' is not finite where it is placed"),
+            std::string::npos);
 }
 
 // Objects that place objects that place objects: a few lines that stand for 10^30 boxes.
