@@ -63,6 +63,12 @@ class TextWords {
 /// An excerpt of a file in quotes, for a message: short, and printable whatever the bytes are.
 std::string quoted_excerpt(std::string_view text);
 
+/// The first word of a text that TextRows gives, wherever its lines end; empty when there is none.
+std::string_view first_word(std::string_view text);
+
+/// Whether two words are the same but for small and capital letters (of ASCII).
+bool same_but_for_case(std::string_view a, std::string_view b);
+
 /// The text without blanks and line breaks around it.
 std::string_view without_blanks(std::string_view text);
 

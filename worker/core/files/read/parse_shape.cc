@@ -112,17 +112,6 @@ constexpr std::array<OtherKind, 11> kOthers = {{
 
 constexpr std::size_t kSeen = 1024;  // bytes in which a file says what it is
 
-// The first word that is in no comment (#); a byte order mark is passed over.
-std::string_view first_word(std::string_view bytes) {
-  constexpr std::string_view kBlank = " \t\r\n\v\f";
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  while (true) {
-    bytes.remove_prefix(std::min(bytes.find_first_not_of(kBlank), bytes.size()));
-    if (!bytes.starts_with('#')) return bytes.substr(0, bytes.find_first_of(kBlank));
-    bytes.remove_prefix(std::min(bytes.find_first_of("\r\n"), bytes.size()));
-  }
-}
-
 // Whether a text begins as OFF may; of one without words the reader says so.
 bool may_be_off(std::string_view text) {
   const std::string_view header = first_word(text);
@@ -168,7 +157,7 @@ std::string_view told_extension(std::string_view bytes) {
   if (bytes.starts_with("glTF")) return ".glb";
   if (bytes.starts_with("PK\x03\x04")) return ".3mf";
   const std::string_view word = first_word(bytes);
-  if (word == "solid") return ".stl";
+  if (is_text_stl(bytes)) return ".stl";
   if (word.ends_with("OFF")) return ".off";
   if (word.starts_with("<?xml") || word.starts_with("<VTKFile") || word.starts_with("<!--")) return ".vtp";
   if (word.starts_with('{')) return ".gltf";

@@ -33,6 +33,9 @@ bool is_binary_stl(std::string_view bytes);
 /// @throws CoreError kLimit for more than 2^28 of either.
 void check_counts(std::uint64_t points, std::uint64_t triangles);
 
+/// Whether the first word is that of STL as text, in capitals or not.
+bool is_text_stl(std::string_view bytes);
+
 /// Cuts a polygon into triangles of `file`.
 /// @param place names it in messages, @param line of it, 0 = none.
 /// @throws CoreError kBadInput when it has less than three corners, one out of range, or, of more than three,

@@ -37,12 +37,12 @@ class TextReader {
     while (rows_.next()) {
       const std::string_view word = rows_.words()[0];
       if (outside_) {
-        expect(word == "solid", "solid");
+        expect(is(word, "solid"), "solid");
         outside_ = false;
-      } else if (word == "endsolid") {
+      } else if (is(word, "endsolid")) {
         outside_ = true;
       } else {
-        expect(word == "facet", "facet or endsolid");
+        expect(is(word, "facet"), "facet or endsolid");
         read_facet();
       }
     }
@@ -51,6 +51,11 @@ class TextReader {
   }
 
  private:
+  // Some programs write capitals.
+  static bool is(std::string_view word, std::string_view wanted) {
+    return word == wanted || same_but_for_case(word, wanted);
+  }
+
   void expect(bool met, const char* what) const {
     if (!met)
       fail_at(rows_.line(), std::string("expected ") + what + ", not " + quoted_excerpt(rows_.text()));
@@ -63,18 +68,18 @@ class TextReader {
 
   void read_facet() {
     const auto& words = next("outer loop");
-    expect(words[0] == "outer" && words.size() == 2 && words[1] == "loop", "outer loop");
+    expect(words.size() == 2 && is(words[0], "outer") && is(words[1], "loop"), "outer loop");
     for (int corner = 0; corner < 3; ++corner) read_vertex(corner);
-    expect(next("endloop")[0] == "endloop", "endloop after three vertices");
-    expect(next("endfacet")[0] == "endfacet", "endfacet");
+    expect(is(next("endloop")[0], "endloop"), "endloop after three vertices");
+    expect(is(next("endfacet")[0], "endfacet"), "endfacet");
   }
 
   void read_vertex(int known) {
     const auto& words = next("a vertex");
-    if (words[0] == "endloop") {
+    if (is(words[0], "endloop")) {
       fail_at(rows_.line(), "a facet of " + std::to_string(known) + " vertices, needs 3");
     }
-    expect(words[0] == "vertex", "vertex");
+    expect(is(words[0], "vertex"), "vertex");
     if (words.size() != 4) fail_at(rows_.line(), "a vertex needs three coordinates");
     const auto coordinate = [&](std::size_t i) { return parse_finite(words[i], rows_.line(), "coordinate"); };
     surface_.add({coordinate(1), coordinate(2), coordinate(3)});
@@ -92,10 +97,14 @@ bool is_binary_stl(std::string_view bytes) {
          bytes.size() == kHeader + kFacet * std::size_t{base::decode<std::uint32_t>(bytes.data() + 80)};
 }
 
+bool is_text_stl(std::string_view bytes) {
+  return same_but_for_case(first_word(bytes), "solid");
+}
+
 ShapeFile parse_stl(std::string_view bytes) {
   // Some binary files begin with "solid", too; the size tells.
   if (is_binary_stl(bytes)) return parse_binary(bytes);
-  if (bytes.starts_with("solid")) return TextReader(bytes).run();
+  if (is_text_stl(bytes)) return TextReader(bytes).run();
   fail_at(
       0, "not an STL file: neither text that begins with 'solid' nor as long as its count of triangles says");
 }

@@ -67,6 +67,23 @@ TEST(ParseShape, MoreThanCanBeNumberedIsRefused) {
   }
 }
 
+// Behind what editors put first, and in capitals.
+TEST(ParseMeshFile, AnStlOfTextMayBeginAsOtherTextDoes) {
+  const std::string text =
+      "solid cube\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1e0 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+      "endsolid\n";
+  std::string capitals = text;
+  for (char& c : capitals) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  for (const std::string& bytes :
+       {"\xEF\xBB\xBF" + text, "\n" + text, "  " + text, "# by hand\n" + text, capitals}) {
+    for (const char* extension : {".stl", ".off"}) {
+      const MeshFile file = parse_mesh_file(extension, bytes);
+      EXPECT_EQ(file.format, "stl");
+      EXPECT_EQ(file.off.mesh.triangles.size(), 1U);
+    }
+  }
+}
+
 TEST(ParseMeshFile, ABinaryStlsHeaderMayBeginWithAnything) {
   for (const char* header : {"", "solid cube", "ply", "OFF", "v", "<?xml", "glTF", "PK\3\4"}) {
     EXPECT_EQ(parse_mesh_file(".off", binary_stl(header)).format, "stl") << header;
