@@ -31,7 +31,11 @@ const PlyType* parse_type(std::string_view word, std::uint64_t line) {
 
 class HeaderReader {
  public:
-  explicit HeaderReader(std::string_view bytes) : rest_(bytes) {}
+  explicit HeaderReader(std::string_view bytes) : rest_(bytes) {
+    const std::size_t end = bytes.find_first_of("\r\n");
+    // Behind a CR that ends the header binary numbers may begin with an LF, so the first row tells for all.
+    if (end != std::string_view::npos && bytes.substr(end, 2) != "\r\n") end_ = bytes[end];
+  }
 
   PlyHeader run() {
     if (!next() || words_ != std::vector<std::string_view>{"ply"})
@@ -79,7 +83,7 @@ class HeaderReader {
 
   // The body may be binary, so rows are taken one by one, up to end_header.
   bool next() {
-    const std::size_t end = rest_.find('\n');
+    const std::size_t end = rest_.find(end_);
     if (end == std::string_view::npos) return false;
     TextWords row(rest_.substr(0, end));
     rest_ = rest_.substr(end + 1);
@@ -131,6 +135,7 @@ class HeaderReader {
   }
 
   std::string_view rest_;
+  char end_ = '\n';  // of a row
   std::vector<std::string_view> words_;
   std::set<std::string_view> names_;  // of the last element's properties
   PlyHeader header_;

@@ -158,6 +158,8 @@ class PlyReader {
   void pass_over(const PlyElement& element) {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       values_.begin(element.name, i);
+      if (i == 0)
+        file_.off.passed_over.push_back({quoted_excerpt(element.name), element.count, values_.line()});
       for (const PlyProperty& property : element.properties) pass_over(property);
       values_.end();
     }

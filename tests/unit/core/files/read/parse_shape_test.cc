@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/coding.h"
 #include "core/base/error.h"
 #include "core/files/read/shape_parsers.h"
 
@@ -124,6 +125,42 @@ TEST(ParseShape, JoinsCornersOfStlInTheirOrderBe0Negative) {
   ASSERT_EQ(mesh.points.size(), 4U);
   EXPECT_EQ(mesh.points[3].z, 2);
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}}));
+}
+
+TEST(ParseShape, RowsOfPlyMayEndWithCarriageReturnsAlone) {
+  const std::string header =
+      "ply\nformat FORMAT 1.0\ncomment by hand\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto file = [&](const std::string& format, const std::string& body, const std::string& end) {
+    std::string bytes = header;
+    bytes.replace(bytes.find("FORMAT"), 6, format);
+    bytes += body;
+    const std::size_t until = format == "ascii" ? bytes.size() : bytes.size() - body.size();
+    std::string made;
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      made += bytes[i] == '\n' && i < until ? end : std::string(1, bytes[i]);
+    return made;
+  };
+  std::string binary("\n\0\0\0", 4);  // a number that begins as a line ends
+  for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) base::append(binary, x);
+  binary += '\3';
+  for (const int corner : {0, 1, 2}) base::append(binary, corner);
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    EXPECT_EQ(parse_shape(".ply", file("ascii", std::string(kTriangle), end)).mesh().triangles.size(), 1U);
+    EXPECT_EQ(parse_shape(".ply", file("binary_little_endian", binary, end)).mesh().triangles.size(), 1U);
+  }
+}
+
+TEST(ParseShape, ElementsOfPlyThatArePassedOverAreTold) {
+  const ShapeFile shape = parse_shape(
+      ".ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nelement camera 0\nproperty float f\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  ASSERT_EQ(shape.off.passed_over.size(), 1U);
+  EXPECT_EQ(shape.off.passed_over[0].word, "'tristrips'");
+  EXPECT_EQ(shape.off.passed_over[0].rows, 1U);
+  EXPECT_EQ(shape.off.passed_over[0].first_line, 15U);
 }
 
 // The last faces of a PLY file are curves where a comment says so, and where they look like them.
