@@ -19,6 +19,26 @@ bool says_true(const VoxelHeader& header, const char* name, bool usual = false) 
   return word.empty() ? usual : word.front() == 't' || word.front() == '1';
 }
 
+// @param axes of the image; those behind the third are of one item.
+AffineMap metaimage_place(const VoxelHeader& header, std::size_t axes) {
+  const char* spacing_name = header.has("elementspacing") ? "elementspacing" : "elementsize";
+  const auto s =
+      header.has(spacing_name) ? header.first_numbers(spacing_name, axes) : std::vector<double>(3, 1);
+  std::vector<double> o(3, 0);
+  for (const char* name : {"offset", "origin", "position"})
+    if (header.has(name)) o = header.first_numbers(name, axes);
+  std::vector<Vec3> steps{{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}};
+  for (const char* name : {"transformmatrix", "rotation", "orientation"}) {
+    if (!header.has(name)) continue;
+    std::vector<double> m = header.numbers(name);  // a row per axis
+    const std::size_t width = m.size() == 9 ? 3 : axes;
+    if (m.size() != width * width) m = header.numbers(name, 9);
+    for (std::size_t a = 0; a < 3; ++a)
+      steps[a] = s[a] * Vec3{m[a * width], m[a * width + 1], m[a * width + 2]};
+  }
+  return place_of(steps, {o[0], o[1], o[2]});
+}
+
 }  // namespace
 
 bool is_metaimage(std::string_view bytes) {
@@ -35,6 +55,8 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
       {"met_ushort", base::kNumberKind<std::uint16_t>},
       {"met_int", base::kNumberKind<std::int32_t>},
       {"met_uint", base::kNumberKind<std::uint32_t>},
+      {"met_long", base::kNumberKind<std::int32_t>},  // of four bytes in MetaIO, whatever the machine
+      {"met_ulong", base::kNumberKind<std::uint32_t>},
       {"met_long_long", base::kNumberKind<std::int64_t>},
       {"met_ulong_long", base::kNumberKind<std::uint64_t>},
       {"met_float", base::kNumberKind<float>},
@@ -57,22 +79,14 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
     other = read_numbers_beside(name, header.line("elementdatafile"), beside);
   }
   VoxelImage image;
-  image.size = sizes_of(header.numbers("dimsize"), header.line("dimsize"));
+  const std::vector<double> sizes = header.numbers("dimsize");
+  image.size = sizes_of(sizes, header.line("dimsize"));
   if (header.has("elementnumberofchannels") && header.word("elementnumberofchannels") != "1")
     fail_at(header.line("elementnumberofchannels"), "the image has more than one value at a place");
   const auto kind = kTypes.find(lower_case(header.word("elementtype")));
   if (kind == kTypes.end())
     fail_at(header.line("elementtype"), "unknown type of values '" + header.word("elementtype") + "'");
-  const char* spacing_name = header.has("elementspacing") ? "elementspacing" : "elementsize";
-  const auto s = header.has(spacing_name) ? header.numbers(spacing_name, 3) : std::vector<double>(3, 1);
-  std::vector<double> o(3, 0), m{1, 0, 0, 0, 1, 0, 0, 0, 1};  // m: a row per axis
-  for (const char* name : {"offset", "origin", "position"})
-    if (header.has(name)) o = header.numbers(name, 3);
-  for (const char* name : {"transformmatrix", "rotation", "orientation"})
-    if (header.has(name)) m = header.numbers(name, 9);
-  image.place =
-      place_of({s[0] * Vec3{m[0], m[1], m[2]}, s[1] * Vec3{m[3], m[4], m[5]}, s[2] * Vec3{m[6], m[7], m[8]}},
-               {o[0], o[1], o[2]});
+  image.place = metaimage_place(header, sizes.size());
   const bool big = says_true(header, "elementbyteordermsb", says_true(header, "binarydatabyteordermsb"));
   const std::size_t count = voxels_of(image.size);
   if (says_true(header, "compresseddata")) other = unpack(other ? *other : data);

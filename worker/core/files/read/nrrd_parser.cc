@@ -19,12 +19,17 @@ base::NumberKind nrrd_kind(const VoxelHeader& header) {
   static const std::vector<std::pair<base::NumberKind, std::vector<std::string_view>>> kNames = {
       {base::kNumberKind<std::int8_t>, {"signed char", "int8", "int8_t"}},
       {base::kNumberKind<std::uint8_t>, {"uchar", "unsigned char", "uint8", "uint8_t"}},
-      {base::kNumberKind<std::int16_t>, {"short", "short int", "signed short", "int16", "int16_t"}},
-      {base::kNumberKind<std::uint16_t>, {"ushort", "unsigned short", "uint16", "uint16_t"}},
+      {base::kNumberKind<std::int16_t>,
+       {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {base::kNumberKind<std::uint16_t>,
+       {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
       {base::kNumberKind<std::int32_t>, {"int", "signed int", "int32", "int32_t"}},
       {base::kNumberKind<std::uint32_t>, {"uint", "unsigned int", "uint32", "uint32_t"}},
-      {base::kNumberKind<std::int64_t>, {"longlong", "int64", "int64_t"}},
-      {base::kNumberKind<std::uint64_t>, {"ulonglong", "uint64", "uint64_t"}},
+      {base::kNumberKind<std::int64_t>,
+       {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
+        "int64_t"}},
+      {base::kNumberKind<std::uint64_t>,
+       {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
       {base::kNumberKind<float>, {"float"}},
       {base::kNumberKind<double>, {"double"}}};
   const std::string type = lower_case(header.word("type"));
@@ -33,7 +38,8 @@ base::NumberKind nrrd_kind(const VoxelHeader& header) {
   fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
 }
 
-AffineMap nrrd_place(const VoxelHeader& header) {
+// @param axes of the image.
+AffineMap nrrd_place(const VoxelHeader& header, std::size_t axes) {
   const std::vector<double> origin =
       header.has("space origin") ? header.numbers("space origin", 3) : std::vector<double>(3, 0);
   const Vec3 shift{origin[0], origin[1], origin[2]};
@@ -41,7 +47,7 @@ AffineMap nrrd_place(const VoxelHeader& header) {
     const auto d = header.numbers("space directions", 9);
     return place_of({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, {d[6], d[7], d[8]}}, shift);
   }
-  const auto s = header.has("spacings") ? header.numbers("spacings", 3) : std::vector<double>(3, 1);
+  const auto s = header.has("spacings") ? header.first_numbers("spacings", axes) : std::vector<double>(3, 1);
   return place_of({{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}}, shift);
 }
 
@@ -65,14 +71,16 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   for (const char* name : {"data file", "datafile"})
     if (header.has(name)) other = read_numbers_beside(header.word(name), header.line(name), beside);
   VoxelImage image;
-  image.size = sizes_of(header.numbers("sizes"), header.line("sizes"));
-  image.place = nrrd_place(header);
+  const std::vector<double> sizes = header.numbers("sizes");
+  image.size = sizes_of(sizes, header.line("sizes"));
+  image.place = nrrd_place(header, sizes.size());
   const std::size_t count = voxels_of(image.size);
   const base::NumberKind kind = nrrd_kind(header);
   const bool big = lower_case(header.word("endian")) == "big";
   const std::string encoding = lower_case(header.word("encoding", "raw"));
-  if (header.has("line skip") || header.has("lineskip") || header.has("byte skip") || header.has("byteskip"))
-    fail_at(0, "skips lines or bytes before its numbers, which is not read");
+  for (const char* name : {"line skip", "lineskip", "byte skip", "byteskip"})
+    if (header.word(name, "0") != "0")
+      fail_at(header.line(name), "skips lines or bytes before its numbers, which is not read");
   const bool packed = encoding == "gz" || encoding == "gzip";
   if (packed) other = unpack(other ? *other : data);
   if (packed || encoding == "raw") {

@@ -28,14 +28,27 @@ std::uint64_t VoxelHeader::line(const char* name) const {
   return found == fields_.end() ? 0 : found->second.line;
 }
 
-std::vector<double> VoxelHeader::numbers(const char* name) const {
+std::vector<std::string> VoxelHeader::words(const char* name) const {
   std::string text = word(name);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
-  std::vector<double> found;
   TextRows row(text);
-  if (row.next())
-    for (const std::string_view one : row.words()) found.push_back(parse_finite(one, line(name), name));
+  if (!row.next()) return {};
+  return {row.words().begin(), row.words().end()};
+}
+
+std::vector<double> VoxelHeader::numbers(const char* name) const {
+  std::vector<double> found;
+  for (const std::string& one : words(name)) found.push_back(parse_finite(one, line(name), name));
+  return found;
+}
+
+std::vector<double> VoxelHeader::first_numbers(const char* name, std::size_t axes) const {
+  const std::vector<std::string> all = words(name);
+  if (all.size() != 3 && all.size() != axes)
+    fail_at(line(name), std::string(name) + " needs " + std::to_string(axes) + " numbers");
+  std::vector<double> found;
+  for (std::size_t i = 0; i < 3; ++i) found.push_back(parse_finite(all[i], line(name), name));
   return found;
 }
 

@@ -23,8 +23,13 @@ class VoxelHeader {
   /// @throws CoreError kBadInput with the line.
   std::vector<double> numbers(const char* name) const;
   std::vector<double> numbers(const char* name, std::size_t count) const;
+  /// The first three of a field that has a word for each of `axes`, or three; what those behind say, which are of one
+  /// item, does not matter (spacings are NaN there).
+  std::vector<double> first_numbers(const char* name, std::size_t axes) const;
 
  private:
+  std::vector<std::string> words(const char* name) const;
+
   struct Field {
     std::string value;
     std::uint64_t line;

@@ -44,15 +44,6 @@ TEST(ParseVoxels, OfEveryTypeAndOrder) {
   }
 }
 
-TEST(ParseVoxels, PackedAndAsText) {
-  const std::string data = bytes_of<float>(false);
-  expect_image(parse_voxels(nrrd("float", "encoding: gzip\n", tests::gzipped(data))));
-  std::string text;
-  for (const float value : grey_values()) text += std::to_string(value) + "\n";
-  expect_image(parse_voxels(nrrd("float", "encoding: ascii\n", text)));
-  expect_image(parse_voxels(metaimage("MET_FLOAT", "CompressedData = True\n", tests::gzipped(data))));
-}
-
 std::string image_refusal(const std::string& bytes, const ReadBeside& beside = {}) {
   try {
     parse_voxels(bytes, beside);
@@ -60,6 +51,56 @@ std::string image_refusal(const std::string& bytes, const ReadBeside& beside = {
     return error.what();
   }
   return "";
+}
+
+// All names that the formats have for the types that are read.
+TEST(ParseVoxels, OfEveryNameOfATypeAndWithWhatSaysNothing) {
+  const auto expect_names = [](const std::vector<std::string>& names, const std::string& data) {
+    for (const std::string& name : names) expect_image(parse_voxels(nrrd(name, "encoding: raw\n", data)));
+  };
+  expect_names({"short", "short int", "signed short", "signed short int", "int16", "int16_t"},
+               bytes_of<std::int16_t>(false));
+  expect_names({"int", "signed int", "int32", "int32_t"}, bytes_of<std::int32_t>(false));
+  expect_names({"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
+                "int64_t"},
+               bytes_of<std::int64_t>(false));
+  for (const char* name : {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"})
+    EXPECT_EQ(parse_voxels(nrrd(name, "encoding: raw\n", bytes_of<std::uint16_t>(false))).value(23), 489);
+  for (const char* name : {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"})
+    EXPECT_EQ(parse_voxels(nrrd(name, "encoding: raw\n", bytes_of<std::uint64_t>(false))).value(23), 489);
+  const std::string data = bytes_of<std::int32_t>(false);
+  expect_image(parse_voxels(nrrd("int", "line skip: 0\nbyte skip: 0\nencoding: raw\n", data)));
+  EXPECT_NE(image_refusal(nrrd("int", "byte skip: 4\nencoding: raw\n", data)).find("line 10: skips"),
+            std::string::npos);
+  expect_image(parse_voxels(metaimage("MET_LONG", "", data)));
+}
+
+// A fourth axis of one item has a size, a spacing, which may be no number, and a row and a column of the matrix.
+TEST(ParseVoxels, OfAFourthAxisOfOneItem) {
+  const std::string data = bytes_of<float>(false);
+  const VoxelImage spaced = parse_voxels(
+      "NRRD0004\ntype: float\ndimension: 4\nsizes: 3 4 2 1\nspacings: 2 3 4 nan\nencoding: raw\n\n" + data);
+  EXPECT_EQ(spaced.place({1, 1, 1}), (Vec3{2, 3, 4}));
+  EXPECT_NE(
+      image_refusal(
+          "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 4 2\nspacings: 2 nan 4\nencoding: raw\n\n" + data),
+      "");
+  const std::string meta =
+      "ObjectType = Image\nNDims = 4\nDimSize = 3 4 2 1\nElementSpacing = 2 3 4 1\nOffset = 10 20 30 0\n"
+      "TransformMatrix = 0 1 0 0 1 0 0 0 0 0 -1 0 0 0 0 1\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n";
+  expect_image(parse_voxels(meta + data));
+  std::string fewer = meta;
+  fewer.replace(fewer.find(" 1\nOffset"), 2, " 1 1");
+  EXPECT_NE(image_refusal(fewer + data).find("needs 4 numbers"), std::string::npos);
+}
+
+TEST(ParseVoxels, PackedAndAsText) {
+  const std::string data = bytes_of<float>(false);
+  expect_image(parse_voxels(nrrd("float", "encoding: gzip\n", tests::gzipped(data))));
+  std::string text;
+  for (const float value : grey_values()) text += std::to_string(value) + "\n";
+  expect_image(parse_voxels(nrrd("float", "encoding: ascii\n", text)));
+  expect_image(parse_voxels(metaimage("MET_FLOAT", "CompressedData = True\n", tests::gzipped(data))));
 }
 
 // A header that ends as the file does, and the numbers in another one.
