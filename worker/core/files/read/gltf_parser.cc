@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
@@ -36,6 +37,14 @@ std::string numbered(const char* what, std::size_t i) {
   return std::string(what) + " " + std::to_string(i);
 }
 
+// Whether an extension is of looks alone, and changes no coordinate.
+bool is_look(std::string_view extension) {
+  constexpr std::array<std::string_view, 4> kLooks = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
+                                                      "KHR_lights_"};
+  return std::any_of(kLooks.begin(), kLooks.end(),
+                     [&](std::string_view start) { return extension.starts_with(start); });
+}
+
 // The JSON with the digits of every base64 text numbered: they are nearly all of the file, and the parser would hold
 // them three times.  Digits with an escape among them are left to it.
 std::string number_digits(std::string_view text, std::vector<std::string_view>& digits) {
@@ -65,7 +74,7 @@ class Gltf {
 
   ShapeFile run() {
     for (const json& needed : list(text_, "extensionsRequired")) {
-      if (needed.is_string() && needed != "KHR_texture_transform")
+      if (needed.is_string() && !is_look(needed.get_ref<const std::string&>()))
         fail_at(0, "needs " + needed.get<std::string>() + ", which is not read" + kAsGlb);
     }
     drawn_.assign(list(text_, "nodes").size(), false);

@@ -126,6 +126,15 @@ TEST(MeshFormats, GltfHasStripsFansAndPlainCorners) {
   expect_box(parse_mesh_file("", glb(plain)), "glb");
 }
 
+TEST(MeshFormats, GltfMayRequireWhatChangesLooksAlone) {
+  GltfParts parts = gltf_parts(box());
+  parts.text["extensionsRequired"] = {"KHR_materials_unlit", "KHR_texture_basisu", "EXT_texture_webp",
+                                      "KHR_lights_punctual"};
+  expect_box(parse_mesh_file(".glb", glb(parts)), "glb");
+  parts.text["extensionsRequired"].push_back("KHR_mesh_quantization");
+  EXPECT_NE(refusal(glb(parts)).find("needs KHR_mesh_quantization"), std::string::npos);
+}
+
 TEST(MeshFormats, GltfSaysWhatItCannotRead) {
   const auto without = [](const std::function<void(json&)>& change) {
     GltfParts parts = gltf_parts(box());
