@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <limits>
@@ -81,6 +82,10 @@ void decompress_frames(std::string_view bytes, Unpacked& out) {
   while (in.pos < in.size || full) {
     ZSTD_outBuffer made{piece.data(), piece.size(), 0};
     wanted = ZSTD_decompressStream(context.get(), &made, &in);
+    if (ZSTD_getErrorCode(wanted) == ZSTD_error_frameParameter_windowTooLarge)
+      throw CoreError(CoreError::Code::kBadInput, "compressed by zstd with a window of more than " +
+                                                      std::to_string((1 << kMaxZstdWindow) >> 20) +
+                                                      " MiB, which is not read; compress it without --long");
     if (ZSTD_isError(wanted) != 0) damaged("zstd", ZSTD_getErrorName(wanted));
     out.add(piece, made.pos);
     full = made.pos == made.size && wanted != 0;

@@ -23,7 +23,8 @@ std::string_view compression_of(std::string_view bytes);
 std::string_view unpacked_name(std::string_view name);
 
 /// The bytes that were compressed by gzip, zlib or zstd, of all members and frames.  Takes at most 40 MiB beside them.
-/// @throws CoreError kBadInput for bytes that are damaged or cut off, kLimit for more than the options allow.
+/// @throws CoreError kBadInput for bytes that are damaged or cut off, and for zstd with a window of more than 32 MiB; kLimit
+///   for more than the options allow.
 std::string unpack(std::string_view bytes, const UnpackOptions& options = {});
 
 }  // namespace affskel::core

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <memory>
 #include <string>
 
 #include "core/base/error.h"
@@ -70,6 +71,29 @@ TEST(Unpack, ABombIsRefusedBeforeItBursts) {
   EXPECT_EQ(refusal(zstd(zeros)), CoreError::Code::kLimit);
   // A header that claims a window of 2 GiB.
   EXPECT_EQ(refusal(std::string("\x28\xb5\x2f\xfd\x00\xa8\x01\x00\x00", 9)), CoreError::Code::kBadInput);
+}
+
+TEST(Unpack, AWindowThatIsTooLargeIsNoDamage) {
+  const std::string text = numbers();
+  const auto context = std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)>(ZSTD_createCCtx(), ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_windowLog, 27);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_contentSizeFlag, 0);
+  // In pieces, for a text that is known to be shorter gets a smaller window.
+  std::string bytes(ZSTD_compressBound(text.size()), '\0');
+  ZSTD_outBuffer out{bytes.data(), bytes.size(), 0};
+  ZSTD_inBuffer in{text.data(), text.size(), 0};
+  ZSTD_compressStream2(context.get(), &out, &in, ZSTD_e_continue);
+  ASSERT_EQ(ZSTD_compressStream2(context.get(), &out, &in, ZSTD_e_end), 0U);
+  bytes.resize(out.pos);
+  try {
+    unpack(bytes);
+    ADD_FAILURE();
+  } catch (const CoreError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("more than 32 MiB"), std::string::npos) << message;
+    EXPECT_NE(message.find("without --long"), std::string::npos) << message;
+    EXPECT_EQ(message.find("damaged"), std::string::npos) << message;
+  }
 }
 
 }  // namespace
