@@ -74,6 +74,7 @@ v1::TriangleMesh operator_surface(const FinishedField& field, const v1::SurfaceP
   core::AlphaShapeOptions options;
   options.alpha = params.alpha();
   options.spacing = field.lattice().spacing;
+  options.context = field.context();
   core::Mesh surface = core::alpha_shape(points, options);
   v1::TriangleMesh message;
   for (core::Vec3& p : surface.points) {

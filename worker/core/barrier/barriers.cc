@@ -106,10 +106,15 @@ class Barriers {
     const double margin = 2 * trees_.volume_tolerance();
     std::atomic<std::size_t> next{0};
     parallel_for(static_cast<unsigned>(builders_.size()), builders_.size(), [&](std::size_t thread) {
-      for (std::size_t d = next++; d < sphere_.size(); d = next++) {
-        throw_if_stopped(options_.context);
-        chords_.along(builders_[thread]->build(sphere_[d]), sphere_[d], begin, margin,
-                      std::span(rows_).subspan(d * count, count));
+      try {
+        for (std::size_t d = next++; d < sphere_.size(); d = next++) {
+          throw_if_stopped(options_.context);
+          chords_.along(builders_[thread]->build(sphere_[d]), sphere_[d], begin, margin,
+                        std::span(rows_).subspan(d * count, count));
+        }
+      } catch (...) {
+        next = sphere_.size();  // the other threads need not go on
+        throw;
       }
     });
   }

@@ -75,17 +75,19 @@ LatticeCut cut_of(std::span<const CrossingOnLine> crossings, double low, std::in
 
 }  // namespace
 
-LatticeCuts::LatticeCuts(const Solid& solid, const Lattice& lattice) {
+LatticeCuts::LatticeCuts(const Solid& solid, const Lattice& lattice, ExecutionContext* context) {
   for (std::size_t a = 0; a < 3; ++a) size_[a] = std::int64_t{lattice.grid.dims[a]} + 2;
-  for (unsigned step = 1; step < 8; ++step) add_step(solid, lattice, step);
+  for (unsigned step = 1; step < 8; ++step) add_step(solid, lattice, step, context);
   std::sort(cuts_.begin(), cuts_.end(),
             [](const LatticeCut& a, const LatticeCut& b) { return a.edge < b.edge; });
 }
 
-void LatticeCuts::add_step(const Solid& solid, const Lattice& lattice, unsigned step) {
+void LatticeCuts::add_step(const Solid& solid, const Lattice& lattice, unsigned step,
+                           ExecutionContext* context) {
+  throw_if_stopped(context);
   const ShearedGrid sheared(lattice.grid, step);
   const std::vector<CrossingOnLine> found =
-      scan_convert_lines_met(solid.mesh, sheared.grid, static_cast<int>(sheared.main));
+      scan_convert_lines_met(solid.mesh, sheared.grid, static_cast<int>(sheared.main), context);
   const auto in_reach = [&](const Indices& at) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (at[a] < (has_axis(step, a) ? -1 : 0) || at[a] > size_[a] - 3) return false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/solid.h"
 
@@ -30,7 +31,8 @@ struct LatticeCut {
 /// in the order of the triangles' lengths in steps.
 class LatticeCuts {
  public:
-  LatticeCuts(const Solid& solid, const Lattice& lattice);
+  /// @throws CoreError kCancelled when the context, if there is one, asks to stop.
+  LatticeCuts(const Solid& solid, const Lattice& lattice, ExecutionContext* context = nullptr);
 
   /// Number of the edge from a place by a step.
   std::uint64_t edge(std::int64_t i, std::int64_t j, std::int64_t k, unsigned step) const {
@@ -45,7 +47,7 @@ class LatticeCuts {
   const std::vector<LatticeCut>& all() const { return cuts_; }
 
  private:
-  void add_step(const Solid& solid, const Lattice& lattice, unsigned step);
+  void add_step(const Solid& solid, const Lattice& lattice, unsigned step, ExecutionContext* context);
 
   std::array<std::int64_t, 3> size_{};  // dims + 2
   std::vector<LatticeCut> cuts_;

@@ -3,8 +3,11 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -100,21 +103,26 @@ double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c, const V
 
 class AlphaShape {
  public:
-  AlphaShape(std::span<const Vec3> points, double alpha)
-      : limit_(alpha * (1 + 1e-9)), delaunay_([&] {
-          const auto sites = distinct(points);
-          return Delaunay(sites.begin(), sites.end());
-        }()) {}
+  AlphaShape(std::span<const Vec3> points, double alpha, ExecutionContext* context)
+      : limit_(alpha * (1 + 1e-9)), stop_(context) {
+    insert(distinct(points));
+  }
 
   /// Triangles by index of point, in canonical order.
   std::vector<Triangle> triangles() {
     if (delaunay_.dimension() == 3) {
-      for (const auto cell : delaunay_.finite_cell_handles()) cell->info() = is_inside(cell);
+      for (const auto cell : delaunay_.finite_cell_handles()) {
+        stop_.did(kCell);
+        cell->info() = is_inside(cell);
+      }
       for (const auto cell : infinite_cells()) cell->info() = false;
     }
     std::vector<Triangle> found;
     if (delaunay_.dimension() >= 2) {
-      for (const auto& facet : delaunay_.finite_facets()) add(facet, found);
+      for (const auto& facet : delaunay_.finite_facets()) {
+        stop_.did(kCell);
+        add(facet, found);
+      }
     }
     std::sort(found.begin(), found.end());
     return found;
@@ -122,6 +130,20 @@ class AlphaShape {
 
  private:
   using Cell = Delaunay::Cell_handle;
+  using Site = std::pair<Point, std::uint32_t>;
+  static constexpr std::uint64_t kCell = 20, kInsertion = 500;  // some nanoseconds each
+
+  // One by one, near ones after each other, as CGAL inserts a range, in which it cannot be stopped.
+  void insert(std::vector<Site> sites) {
+    using Order = CGAL::Spatial_sort_traits_adapter_3<Kernel, CGAL::First_of_pair_property_map<Site>>;
+    CGAL::spatial_sort(sites.begin(), sites.end(), Order());
+    Delaunay::Vertex_handle last;
+    for (const auto& [place, index] : sites) {
+      stop_.did(kInsertion);
+      last = delaunay_.insert(place, last);
+      last->info() = index;
+    }
+  }
 
   std::vector<Cell> infinite_cells() const {
     std::vector<Cell> cells;
@@ -190,6 +212,7 @@ class AlphaShape {
   }
 
   double limit_;
+  StopCheck stop_;
   Delaunay delaunay_;
 };
 
@@ -207,9 +230,9 @@ Mesh alpha_shape(std::span<const Vec3> points, const AlphaShapeOptions& options)
   if (points.size() < 3) return {};
   if (const auto snapped = lattice_coordinates(points, options.spacing)) {
     const double steps = std::sqrt(alpha) / options.spacing;
-    return with_used_points(points, AlphaShape(*snapped, steps * steps).triangles());
+    return with_used_points(points, AlphaShape(*snapped, steps * steps, options.context).triangles());
   }
-  return with_used_points(points, AlphaShape(points, alpha).triangles());
+  return with_used_points(points, AlphaShape(points, alpha, options.context).triangles());
 }
 
 }  // namespace affskel::core

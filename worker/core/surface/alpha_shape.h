@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -10,6 +11,7 @@ struct AlphaShapeOptions {
   double alpha = 0;    ///< squared radius of the alpha shape, > 0; 0 = 3 * spacing^2: the square of a
                        ///< voxel's diagonal, so that lattice neighbours (26) are always joined
   double spacing = 0;  ///< lattice spacing; required when alpha is 0, welcome otherwise (see below)
+  ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 /// The triangles of the alpha shape of `points` (Edelsbrunner & Muecke 1994): its regular facets,
@@ -23,7 +25,7 @@ struct AlphaShapeOptions {
 /// axis-parallel lattice of that spacing (to 1e-6 of it), the shape is that of the exact lattice: rounding of
 /// the coordinates then decides nothing.  The result depends on the points and their order alone.
 /// @throws CoreError kBadInput when alpha and spacing are both 0, when one is negative or not finite, or when
-///   a coordinate is not finite.
+///   a coordinate is not finite; kCancelled.
 Mesh alpha_shape(std::span<const Vec3> points, const AlphaShapeOptions& options);
 
 }  // namespace affskel::core

@@ -59,19 +59,21 @@ constexpr double kLevelMargin = 1e-3;
 
 class Marcher {
  public:
-  Marcher(const Solid& solid, const Lattice& lattice, const FrameField& field, double level)
+  Marcher(const Solid& solid, const Lattice& lattice, const FrameField& field, double level,
+          ExecutionContext* context)
       : field_(field),
         level_(level),
-        cuts_(solid, lattice),
+        context_(context),
+        cuts_(solid, lattice, context),
         places_(lattice, field, cuts_, level),
         ranks_(lattice) {
     for (std::size_t a = 0; a < 3; ++a) dims_[a] = lattice.grid.dims[a];
   }
 
   /// In lattice coordinates.
-  Mesh run(ExecutionContext* context) {
+  Mesh run() {
     for (at_[0] = -1; at_[0] < dims_[0]; ++at_[0]) {
-      throw_if_stopped(context);
+      throw_if_stopped(context_);
       places_.move_to(at_[0]);
       if (at_[0] + 1 < dims_[0]) ranks_.move_to(static_cast<std::uint32_t>(at_[0] + 1));
       // clear() would touch all the buckets that the fullest layer needed.
@@ -79,7 +81,7 @@ class Marcher {
       for (at_[1] = -1; at_[1] < dims_[1]; ++at_[1]) march_row();
     }
     constexpr int kRounds = 40;  // enough for steps of a few voxels
-    relax_loose_vertices(loose_, kRounds, mesh_);
+    relax_loose_vertices(loose_, kRounds, mesh_, context_);
     return std::move(mesh_);
   }
 
@@ -278,6 +280,7 @@ class Marcher {
 
   const FrameField& field_;
   double level_;
+  ExecutionContext* context_;
   LatticeCuts cuts_;
   ErodedPlaces places_;
   LayerIndex ranks_;  // of layer at_[0] + 1 and the two beside it
@@ -336,9 +339,9 @@ ErodedSurface eroded_surface(const Solid& solid, const Lattice& lattice, const F
                              const ErodedSurfaceOptions& options) {
   check(lattice, field, options);
   ErodedSurface result;
-  result.mesh = Marcher(solid, lattice, field, options.level).run(options.context);
+  result.mesh = Marcher(solid, lattice, field, options.level, options.context).run();
   throw_if_stopped(options.context);
-  if (options.shortest_edge > 0) result.mesh = tidy_mesh(result.mesh, options.shortest_edge);
+  if (options.shortest_edge > 0) result.mesh = tidy_mesh(result.mesh, options.shortest_edge, options.context);
   result.values = field_between(lattice, field, result.mesh.points);
   place_mesh(solid, lattice, result.mesh);
   result.volume = enclosed_volume(result.mesh);

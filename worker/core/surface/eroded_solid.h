@@ -19,7 +19,7 @@ struct ErodedSurfaceOptions {
   double level = 0;  ///< E of the surface, mesh units cubed, >= 0
   /// Shorter ones are collapsed where the shape allows it; spacings, < 1; 0 = none.
   double shortest_edge = 0.4;
-  ExecutionContext* context = nullptr;  ///< asked whether to stop, at every layer
+  ExecutionContext* context = nullptr;  ///< asked whether to stop, at every layer and round
 };
 
 struct ErodedSurface {

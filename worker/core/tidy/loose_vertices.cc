@@ -40,10 +40,11 @@ void relax(const Surroundings& around, LooseVertex& loose) {
 
 }  // namespace
 
-void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh) {
+void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh, ExecutionContext* context) {
   const std::vector<Triangle> triangles = loose_triangles(loose, mesh);
   std::vector<Surroundings> around(mesh.points.size());
   for (int round = 0; round < rounds; ++round) {
+    throw_if_stopped(context);
     for (const LooseVertex& l : loose) {
       mesh.points[l.vertex] = l.from + l.share * l.along;
       around[l.vertex] = {};

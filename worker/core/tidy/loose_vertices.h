@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -20,6 +21,8 @@ struct LooseVertex {
 /// goes half way to where its line meets the plane through the mean of its neighbours, normal to the surface
 /// there.  The other vertices stay.  A plane is a fixed point.
 /// Linear in rounds times the size of the mesh; a function of its arguments alone.
-void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh);
+/// @throws CoreError kCancelled when the context, if there is one, asks to stop; it is asked in every round.
+void relax_loose_vertices(std::span<LooseVertex> loose, int rounds, Mesh& mesh,
+                          ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

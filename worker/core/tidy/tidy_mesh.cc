@@ -36,8 +36,10 @@ class Tidier {
  public:
   Tidier(const Mesh& mesh, double length) : mesh_(mesh), limit_(length * length) {}
 
-  Mesh run() {
-    for (int round = 0; round < kMaxRounds && change(); ++round) {
+  Mesh run(ExecutionContext* context) {
+    for (int round = 0; round < kMaxRounds; ++round) {
+      throw_if_stopped(context);
+      if (!change()) break;
     }
     drop_unused_points(mesh_);
     return std::move(mesh_);
@@ -215,8 +217,8 @@ class Tidier {
 
 }  // namespace
 
-Mesh tidy_mesh(const Mesh& mesh, double shortest_edge) {
-  return Tidier(mesh, shortest_edge).run();
+Mesh tidy_mesh(const Mesh& mesh, double shortest_edge, ExecutionContext* context) {
+  return Tidier(mesh, shortest_edge).run(context);
 }
 
 }  // namespace affskel::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -12,6 +13,7 @@ namespace affskel::core {
 /// short edges and flat triangles may be left.
 /// @param shortest_edge edges below this length are collapsed, mesh units, > 0.
 /// In rounds, each linear in the size of the mesh but for sorting; a function of its arguments alone.
-Mesh tidy_mesh(const Mesh& mesh, double shortest_edge);
+/// @throws CoreError kCancelled when the context, if there is one, asks to stop; it is asked in every round.
+Mesh tidy_mesh(const Mesh& mesh, double shortest_edge, ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -387,6 +388,26 @@ TEST(Barriers, StopWhenTheirContextAsks) {
     options.context = context;
     star_barriers(options, 3);
   });
+}
+
+// Stops the thread that asks first.
+class StopsOneThread : public ExecutionContext {
+ public:
+  bool stop_requested() override { return asked_++ == 0; }
+  std::uint64_t asked() const { return asked_; }
+
+ private:
+  std::atomic<std::uint64_t> asked_{0};
+};
+
+TEST(Barriers, EndOnAllThreadsWhenOneFails) {
+  StopsOneThread context;
+  BarrierOptions options;
+  options.directions = 40962;
+  options.threads = 2;
+  options.context = &context;
+  EXPECT_THROW(star_barriers(options, 3), CoreError);
+  EXPECT_LT(context.asked(), 40962U);
 }
 
 }  // namespace

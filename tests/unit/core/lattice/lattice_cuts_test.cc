@@ -7,6 +7,7 @@
 
 #include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -70,6 +71,13 @@ TEST(LatticeCutsTest, MeetABallsSurfaceOnEveryEdgeThatLeavesIt) {
     ++crossed;
   });
   EXPECT_GT(crossed, 1000u);
+}
+
+TEST(LatticeCutsTest, StopWhenAsked) {
+  const Solid solid = make_solid(make_sphere(1, 20000));
+  const Lattice lattice = lattice_at(solid, 0.19);
+  expect_stops_wherever_it_is_asked(7,
+                                    [&](ExecutionContext* context) { LatticeCuts(solid, lattice, context); });
 }
 
 TEST(LatticeCutsTest, FindTheGapBetweenTwoBoxes) {

@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh_checks.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -198,6 +199,15 @@ TEST(AlphaSurfaceTest, TakesPointsThatAreOnNoLattice) {
   const MeshFacts facts = mesh_facts(mesh);
   EXPECT_TRUE(facts.balanced);
   EXPECT_NEAR(facts.volume / (4 * std::numbers::pi / 3), 0.95, 0.05);
+}
+
+TEST(AlphaSurfaceTest, StopsWhenAsked) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vec3> points(4000);
+  for (Vec3& p : points) p = {uniform(random), uniform(random), uniform(random)};
+  expect_stops_wherever_it_is_asked(
+      30, [&](ExecutionContext* context) { alpha_shape(points, {.alpha = 0.16, .context = context}); });
 }
 
 TEST(AlphaSurfaceTest, RefusesBadArguments) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 
 namespace affskel::core {
 namespace {
@@ -51,6 +52,15 @@ TEST(LooseVerticesTest, StayWithinTheirBounds) {
     EXPECT_LT(l.share, 0.7);  // the plane round it is at 0.5
     EXPECT_EQ(mesh.points[l.vertex], l.from + l.share * l.along);
   }
+}
+
+TEST(LooseVerticesTest, StopWhenAsked) {
+  const Mesh box = make_box(4, 4, 4, 8);
+  expect_stops_wherever_it_is_asked(50, [&](ExecutionContext* context) {
+    Mesh mesh = box;
+    std::vector<LooseVertex> loose = roughen_top(mesh, 0.6, 0.9);
+    relax_loose_vertices(loose, 50, mesh, context);
+  });
 }
 
 }  // namespace

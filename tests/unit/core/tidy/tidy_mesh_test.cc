@@ -11,6 +11,7 @@
 #include "core/mesh_checks.h"
 #include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
+#include "core/stopping_context.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -51,6 +52,11 @@ TEST(TidyMeshTest, RemovesTheNeedlesAndCapsOfABall) {
   EXPECT_GE(shape_of(tidy).shortest_edge, 0.04);
   EXPECT_GT(shape_of(tidy).least_angle, 12);
   EXPECT_NEAR(mesh_facts(tidy).volume, mesh_facts(mesh).volume, 0.005 * mesh_facts(mesh).volume);
+}
+
+TEST(TidyMeshTest, StopsWhenAsked) {
+  const Mesh mesh = make_torus(2, 0.1, 1200);
+  expect_stops_wherever_it_is_asked(3, [&](ExecutionContext* context) { tidy_mesh(mesh, 0.5, context); });
 }
 
 TEST(TidyMeshTest, KeepsTheGenusOfATorusTooThinForItsEdges) {
