@@ -18,7 +18,7 @@ namespace affskel::core {
 ///   .xyz          x y z or x y z nx ny nz per row;
 ///   .off          Geomview OFF, text or binary, with or without faces;
 ///   .ply          ASCII or binary of either byte order, any properties (but those of ply_display.h beside an
-///                 E), polygons cut into triangles;
+///                 E), polygons cut into triangles; other elements are passed over and counted;
 ///   .obj          v, f and l, polygons cut, a backslash at a line's end continues it; the rest is
 ///                 passed over and counted;
 ///   .stl          text or binary; corners at the same place become one vertex;
@@ -28,7 +28,8 @@ namespace affskel::core {
 ///                 the file; corners at the same place become one vertex;
 ///   .3mf          the triangles of all items that are built, in the file's unit.
 /// Coordinates and normals are finite.
-/// @throws CoreError kBadInput with the line where there is one.
+/// @throws CoreError kBadInput with the line where there is one; kLimit for what would grow without bound, and for more
+///   than 2^28 vertices or triangles.
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes);
 
 struct MeshFileOptions {
