@@ -89,6 +89,9 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::open_stream(const fs::path& target) {
   if (target == "-") target_ = "standard output";
+  // Known now, not when all is done: programs keep the place of a closed one by what can only be read.
+  const bool closed = target == "-" && (fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY;
+  if (closed) throw FileError(EBADF, "cannot write", target_);
   stream_ =
       target == "-" ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : open(target.c_str(), O_WRONLY | O_CLOEXEC);
   if (stream_ < 0) fail("cannot write");
