@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/cli/number_parsers.h"
 #include "client/cli/value_checks.h"
@@ -39,6 +40,11 @@ void prepare_output_dir(const std::string& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw error_from_errno(error.value(), "cannot create the directory", directory);
+  try {
+    const base::AtomicFile trial(fs::path(directory) / ".affskel");  // never appears
+  } catch (const base::FileError& failed) {
+    throw error_from_errno(failed.code().value(), "cannot write there", directory);
+  }
 }
 
 std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,

@@ -38,6 +38,15 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_RIDGE);
 }
 
+// Nobody can make files in /sys.
+TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFolderCanBeWritten) {
+  const Outcome refused = run({"submit", dir_ / "cube.off", "-o", "/sys"});
+  EXPECT_EQ(refused.exit_code, 7);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_NE(refused.err.find("/sys: cannot write there: "), std::string::npos) << refused.err;
+  EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+}
+
 TEST_F(ClientTest, SubmitAsksForTheInfimum) {
   EXPECT_EQ(run({"submit", dir_ / "cube.off", "--minimum", "infimum"}).exit_code, 0);
   EXPECT_EQ(service_.submitted.params().minimum(), v1::MINIMUM_INFIMUM);
