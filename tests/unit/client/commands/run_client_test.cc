@@ -40,6 +40,24 @@ TEST_F(ClientTest, SaysHowManyThereMayBe) {
       << refused.err;
 }
 
+TEST_F(ClientTest, MemoryIsAWholeNumberOfBytesWithOrWithoutAUnit) {
+  const auto inspect = [&](const std::string& memory) {
+    return run({"--memory", memory, "inspect", dir_ / "cube.off"});
+  };
+  for (const char* good : {"0", "4294967296", "4194304K", "4096M", "4G"})
+    EXPECT_EQ(inspect(good).exit_code, 0) << good;
+  for (const char* wrong : {"-1", "1.5G", "2X", "2T", "2GB", "", "K", "17179869184G"}) {
+    const Outcome refused = inspect(wrong);
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_NE(refused.err.find(
+                  "--memory: must be a whole number of bytes, or one with K, M or G for powers of 1024 "
+                  "behind it, not '" +
+                  std::string(wrong) + "'"),
+              std::string::npos)
+        << refused.err;
+  }
+}
+
 TEST_F(ClientTest, AMeshWhereAJobIsWantedIsToldToBeSubmitted) {
   for (const char* command : {"render", "view", "status"}) {
     const Outcome refused = run({command, dir_ / "cube.off"});
