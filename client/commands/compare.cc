@@ -24,6 +24,9 @@ struct CompareOptions {
 
 CompareRequest request_of(const CompareOptions& options) {
   CompareRequest request = options.request;
+  const ComparisonOptions& files = request.comparison;
+  if ((files.a == "-") + (files.b == "-") + (files.solid == "-") > 1)
+    throw ClientError(ExitCode::kUsage, "only one of A, B and --solid can be standard input");
   if (options.radii.empty()) return request;
   const std::optional<std::vector<double>> radii = parse_numbers(options.radii);
   if (!radii)
@@ -89,8 +92,8 @@ void add_compare(CommandLine& line) {
       "to the largest r and divided by it. Points: .csv .ply .off .xyz .vtp .dat; surfaces: .off .ply .obj\n"
       ".stl .vtp, compared by points spread evenly over them.",
       [options](Context& context) { run_compare(context, *options); });
-  add_file(command, "A", o.a, "Skeleton: points or a surface");
-  add_file(command, "B", o.b, "The other one");
+  add_file(command, "A", o.a, "Skeleton: points or a surface. - reads it from stdin");
+  add_file(command, "B", o.b, "The other one, or -");
   command
       ->add_option("--radius", o.radius,
                    "Radius that matters (default: sqrt(3)/128 of the longest side of the solid's\n"

@@ -53,9 +53,10 @@ double spread_points(const ShapeFile& shape, std::uint64_t samples, std::vector<
   return distance;
 }
 
-ComparedPoints read_points(const std::string& path, std::uint64_t samples, const FileWork& work,
+ComparedPoints read_points(const std::string& file, std::uint64_t samples, const FileWork& work,
                            Notices& notices) {
-  ShapeFile shape = work.read(path);
+  ShapeFile shape = work.read(file);
+  const std::string path = shape.path;
   ComparedPoints result{path, shape.is_surface(), {}};
   if (!shape.is_surface()) {
     result.points = std::move(shape.off.mesh.points);
