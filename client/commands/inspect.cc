@@ -140,7 +140,7 @@ void add_inspect(CommandLine& line) {
                                "  affskel-client --json inspect scan.stl\n"
                                "  affskel-client inspect scan.off --render defects.png",
                                [options](Context& context) { run_inspect(context, *options); });
-  command->add_option("FILE", options->file, std::string(kMeshKinds) + "; - reads it from stdin")
+  command->add_option("FILE", options->file, mesh_kinds() + "; - reads it from stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

@@ -227,9 +227,9 @@ void add_submit(CommandLine& line) {
                "  affskel-client make torus -o - | affskel-client submit - --wait",
                [options](Context& context) { run_submit(context, *options); });
   command
-      ->add_option("FILE", o.file,
-                   "Closed triangle mesh: " + std::string(kMeshKinds) +
-                       ";\nsubmitted as OFF text. - reads it from stdin")
+      ->add_option(
+          "FILE", o.file,
+          "Closed triangle mesh: " + mesh_kinds() + ";\nsubmitted as OFF text. - reads it from stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");
