@@ -124,6 +124,17 @@ SubmittedSolid solid_of(Context& context, const std::string& file, const RepairC
   return found;
 }
 
+// What keeps the id from being printed does not keep the job from being computed.
+template <typename Print>
+void print_of(const v1::Job& job, Print&& print) {
+  try {
+    print();
+  } catch (const ClientError& error) {
+    throw ClientError(error.exit_code(), std::string(error.what()) + "; job " + job.id() + " was submitted",
+                      error.file());
+  }
+}
+
 void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const RepairChoice repair = chosen_repair(options.repair);
@@ -139,7 +150,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   const Submitted submitted =
       submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);
   v1::Job job = submitted.job;
-  console.result(job.id() + "\n");
+  print_of(job, [&] { console.result(job.id() + "\n"); });
   say(console, reuse_notices(submitted));
   const bool wait = options.wait || !options.output_dir.empty();
   if (wait) job = follow(context, job.id(), false, !options.output_dir.empty());
@@ -149,7 +160,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
     document["files"] = paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
   }
-  console.document(document);
+  print_of(job, [&] { console.document(document); });
   if (wait) show_end(context, job, said);
 }
 

@@ -1,12 +1,15 @@
 // `submit`, against a server in this process.
 #include "client/commands/run_client.h"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "client_fixture.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/text/off_file.h"
+#include "test_environment.h"
 #include "tools/files.h"
 #include "wire/sha256.h"
 
@@ -45,6 +48,19 @@ TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFolderCanBeWritten) {
   EXPECT_EQ(refused.out, "");
   EXPECT_NE(refused.err.find("/sys: cannot write there: "), std::string::npos) << refused.err;
   EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+}
+
+TEST_F(ClientTest, AnIdThatCannotBePrintedIsToldWithTheReason) {
+  for (const bool as_json : {false, true}) {
+    std::ofstream full("/dev/full");
+    std::ostringstream err;
+    std::vector<std::string> arguments = {"--server", server_.address(), "submit", dir_ / "cube.off"};
+    if (as_json) arguments.insert(arguments.begin(), "--json");
+    const ClientIo io{full, err, false, test_environment({{"HOME", dir_.path()}}), {}};
+    EXPECT_EQ(run_client(arguments, io), 8);
+    EXPECT_NE(err.str().find("; job " + service_.job.id() + " was submitted"), std::string::npos)
+        << err.str();
+  }
 }
 
 TEST_F(ClientTest, SubmitAsksForTheInfimum) {
