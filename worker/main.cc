@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -219,6 +220,7 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is then told as a full disk
   CLI::App app("affskel-worker: computes erosion fields for a server, or by itself.");
   Flags flags;
   const CLI::App* compute = declare(app, flags);

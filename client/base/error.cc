@@ -36,6 +36,8 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
 
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise) {
+  // A standard stream that was closed when the program began; of no other file is the descriptor bad.
+  if (error_number == EBADF) return {ExitCode::kUsage, "is closed", file};
   ExitCode code = otherwise;
   if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG) code = ExitCode::kLimit;
   if (error_number == EPIPE) code = ExitCode::kClosedPipe;

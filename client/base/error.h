@@ -41,7 +41,7 @@ ClientError error_from_core(const core::CoreError& error, const std::string& fil
 ClientError error_from_file(const base::FileError& error);
 
 /// Error for a failed system call on `file`, by errno: disk full 8, a pipe without a reader 141, no
-/// permission 7, otherwise `otherwise`.
+/// permission 7, a standard stream that is closed 2, otherwise `otherwise`.
 ClientError error_from_errno(int error_number, const std::string& action, const std::string& file,
                              ExitCode otherwise = ExitCode::kUsage);
 

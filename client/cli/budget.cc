@@ -81,7 +81,8 @@ Budget::Budget(const Console& console, const Budgets& budgets, Work work, const 
   handler_ = std::set_new_handler(on_memory);
   getrlimit(RLIMIT_DATA, &data_);
   rlimit limit = data_;
-  limit.rlim_cur = std::min(data_.rlim_cur, data_bytes() + budgets.memory);
+  const rlim_t used = data_bytes();
+  limit.rlim_cur = std::min(data_.rlim_cur, used + std::min<rlim_t>(budgets.memory, RLIM_INFINITY - used));
   setrlimit(RLIMIT_DATA, &limit);
 }
 

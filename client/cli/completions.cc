@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client/base/error.h"
+#include "client/base/mesh_extensions.h"
 #include "client/cli/help_format.h"
 #include "client/cli/value_checks.h"
 
@@ -90,10 +91,16 @@ std::string join(const std::vector<std::string>& words, const std::string& betwe
   return CLI::detail::join(words, between);
 }
 
-// The extensions of mesh files, each behind a text.
+// The extensions of mesh files, each behind a text, without its dot.
 std::string mesh_patterns(const std::string& before, const std::string& between) {
   std::vector<std::string> patterns;
-  for (const char* extension : {"off", "ply", "obj", "stl", "vtp"}) patterns.push_back(before + extension);
+  const auto add = [&](std::string_view extension) {
+    const std::string pattern = before + std::string(extension.substr(1));
+    patterns.push_back(pattern);
+    for (const std::string_view packed : kPackedExtensions) patterns.push_back(pattern + std::string(packed));
+  };
+  for (const std::string_view extension : kMeshExtensions) add(extension);
+  for (const std::string_view extension : kVoxelExtensions) add(extension);
   return join(patterns, between);
 }
 

@@ -1,5 +1,6 @@
 #include "client/cli/console.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -33,6 +34,24 @@ bool nobody_reads_standard_output() {
   return poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0;
 }
 
+// main has put in its place what can only be read.
+bool standard_output_is_closed() {
+  return (fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY;
+}
+
+constexpr const char* kStandardOutput = "standard output";
+
+// @param error_number 0: not known.
+[[noreturn]] void not_written(int error_number) {
+  if (standard_output_is_closed()) error_number = EBADF;
+  if (error_number == EPIPE || (error_number == 0 && nobody_reads_standard_output()))
+    throw ClientError(ExitCode::kClosedPipe, "nobody reads standard output");
+  if (error_number == EBADF) throw error_from_errno(error_number, "cannot write", kStandardOutput);
+  const std::string why =
+      error_number == 0 ? "there is no room left" : std::generic_category().message(error_number);
+  throw ClientError(ExitCode::kLimit, "cannot write to standard output: " + why);
+}
+
 }  // namespace
 
 void Console::erase_transient() {
@@ -52,9 +71,7 @@ void Console::write_out(std::string_view text) {
   errno = 0;
   out_ << text << std::flush;
   if (out_ || errno == 0) return;
-  if (errno == EPIPE) throw ClientError(ExitCode::kClosedPipe, "nobody reads standard output");
-  throw ClientError(ExitCode::kLimit,
-                    "cannot write to standard output: " + std::generic_category().message(errno));
+  not_written(errno);
 }
 
 void Console::result(std::string_view text) {
@@ -102,9 +119,7 @@ void Console::error(const ClientError& error) {
 void Console::finish() {
   const base::MutexLock lock(mutex_);
   write_out("");
-  if (!out_ && nobody_reads_standard_output())
-    throw ClientError(ExitCode::kClosedPipe, "nobody reads standard output");
-  if (!out_) throw ClientError(ExitCode::kLimit, "cannot write to standard output: there is no room left");
+  if (!out_) not_written(0);
 }
 
 }  // namespace affskel::client

@@ -22,7 +22,7 @@ void add_budgets(CLI::App& app, Budgets& budgets) {
             "Processor time that mending and checking a mesh may take, seconds; 0: any");
   app.add_option("--memory", budgets.memory,
                  "Bytes of memory that either may take, with K, M or G for powers of 1024; default: any")
-      ->transform(CLI::AsSizeValue(false).description(""))
+      ->transform(byte_count())
       ->type_name("BYTES");
 }
 

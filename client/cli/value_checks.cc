@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -97,6 +99,42 @@ CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
                    ? ""
                    : "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
                          ", not '" + text + "'";
+      },
+      "");
+}
+
+namespace {
+
+// How many of these are a byte count's unit; nothing where it has none.
+std::optional<std::uint64_t> unit_of(std::string_view suffix) {
+  if (suffix.empty()) return 1;
+  const std::size_t power = std::string_view("KMG").find(suffix);
+  if (suffix.size() > 1 || power == std::string_view::npos) return std::nullopt;
+  return std::uint64_t{1} << (10 * (power + 1));
+}
+
+std::optional<std::uint64_t> parse_bytes(const std::string& text) {
+  std::uint64_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [behind, error] = std::from_chars(text.data(), end, count);
+  const std::optional<std::uint64_t> unit = unit_of({behind, static_cast<std::size_t>(end - behind)});
+  if (error != std::errc{} || !unit || count > std::numeric_limits<std::uint64_t>::max() / *unit)
+    return std::nullopt;
+  return count * *unit;
+}
+
+}  // namespace
+
+CLI::Validator byte_count() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const std::optional<std::uint64_t> bytes = parse_bytes(text);
+        if (!bytes) {
+          return "must be a whole number of bytes, or one with K, M or G for powers of 1024 behind it, not '" +
+                 base::to_utf8(text) + "'";
+        }
+        text = std::to_string(*bytes);
+        return "";
       },
       "");
 }

@@ -23,6 +23,8 @@ CLI::Validator proper_share();
 CLI::Validator share_or_all();
 /// A whole number from `low` to `high`.
 CLI::Validator whole_number(std::uint64_t low, std::uint64_t high);
+/// A whole number of bytes, or of powers of 1024 with K, M or G behind it; rewrites it to bytes.
+CLI::Validator byte_count();
 /// Not empty: a variable that is empty by mistake in a script must not select another server or file.
 CLI::Validator non_empty();
 /// Well-formed UTF-8: for what becomes a string of the protocol.

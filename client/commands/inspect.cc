@@ -88,8 +88,10 @@ std::string facts_text(const ordered_json& facts, bool all) {
       text += holes_text(value);
     } else if (key == "passed_over") {
       for (const ordered_json& rows : value) {
-        text += key_line("passed_over", rows["rows"].dump() + " of " + rows["word"].get<std::string>() +
-                                            ", first in line " + rows["first_line"].dump());
+        const bool has_lines = rows["first_line"].get<std::uint64_t>() > 0;  // of text
+        text +=
+            key_line("passed_over", rows["rows"].dump() + " of " + rows["word"].get<std::string>() +
+                                        (has_lines ? ", first in line " + rows["first_line"].dump() : ""));
       }
     } else if (key == "volume") {
       text += key_line(key, measure_text(value));
@@ -140,7 +142,7 @@ void add_inspect(CommandLine& line) {
                                "  affskel-client --json inspect scan.stl\n"
                                "  affskel-client inspect scan.off --render defects.png",
                                [options](Context& context) { run_inspect(context, *options); });
-  command->add_option("FILE", options->file, std::string(kMeshKinds) + "; - reads it from stdin")
+  command->add_option("FILE", options->file, mesh_kinds() + "; - reads it from stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

@@ -33,10 +33,10 @@ struct PerturbOptions {
 // "0.5%" or "0.005"
 double fraction_of(const std::string& text) {
   const std::optional<double> share = parse_share(text);
-  if (!share || *share < 0) {
+  if (!share || !(*share > 0)) {
     throw ClientError(
         ExitCode::kUsage,
-        "--noise: expected a share of the box diagonal >= 0 as in 0.5% or 0.005, not '" + text + "'");
+        "--noise: expected a share of the box diagonal > 0 as in 0.5% or 0.005, not '" + text + "'");
   }
   return *share;
 }
@@ -63,7 +63,7 @@ void run_perturb(Context& context, const PerturbOptions& options) {
       context.within_budget(Budget::Work::kReading, options.file, [&] { return read_shape(options.file); });
   if (shape.mesh().triangles.empty()) {
     throw ClientError(ExitCode::kBadInput, "has no triangles; noise is for the vertices of a mesh",
-                      options.file);
+                      shape.path);
   }
   const FileFormat format = choose_format(destination, shape_formats(shape), "surface");
   const double diagonal = core::box_diagonal(shape.mesh());
@@ -71,7 +71,7 @@ void run_perturb(Context& context, const PerturbOptions& options) {
   try {
     shape.off.mesh = core::perturb(shape.mesh(), {sigma, options.seed});
   } catch (const core::CoreError& error) {
-    throw error_from_core(error, options.file);
+    throw error_from_core(error, shape.path);
   }
   // What was true of the old places (E, normals) is not of the new ones.
   // Nor have curves vertices of a mesh.
@@ -114,7 +114,7 @@ void add_perturb(CommandLine& line) {
                "The same seed gives the same noise on every machine.",
                [options](Context& context) { run_perturb(context, *options); });
   add_file(command, "FILE", options->file,
-           "Mesh: .off .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd");
+           "Mesh: .off .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd; - reads it from stdin");
   command->get_option("FILE")->check(mesh_file());
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");
   add_format(command, options->format);

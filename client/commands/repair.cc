@@ -74,7 +74,8 @@ void add_repair(CommandLine& line) {
       "stays as it is",
       [options](Context& context) { run_repair(context, *options); });
   command
-      ->add_option("FILE", options->file, std::string(kMeshKinds) + "; for a wrap points, too (.xyz, .ply)")
+      ->add_option("FILE", options->file,
+                   mesh_kinds() + "; for a wrap points, too (.xyz, .ply).\n- reads it from stdin")
       ->required()
       ->type_name("");
   add_repair_option(

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "client/cli/progress.h"
@@ -85,16 +86,36 @@ std::string unknown_command(const std::string& word, const CLI::App& level) {
   return text + "; " + level.get_name() + " knows " + CLI::detail::join(known, ", ");
 }
 
-// CLI11's "At Most 2 required but received 3".
-std::string plain_mismatch(const std::string& text) {
-  return CLI::detail::find_and_replace(CLI::detail::find_and_replace(text, "At Most", "at most"),
-                                       " required but received", ", not");
+// CLI11's "At Most 2 required but received 3", or "At least".
+std::string plain_mismatch(std::string text) {
+  for (const char* const bound : {"At Most", "At least"})
+    text = CLI::detail::find_and_replace(text, bound, CLI::detail::to_lower(bound));
+  return CLI::detail::find_and_replace(text, " required but received", ", not");
+}
+
+// Of the words that are left over the first few, in the order in which they were given; a pattern may have become thousands.
+std::string unexpected_words(const std::vector<std::string>& left,
+                             const std::vector<std::string>& arguments) {
+  constexpr std::size_t kShown = 3;
+  std::multiset<std::string> searched(left.begin(), left.end());
+  std::vector<std::string> found;
+  for (auto word = arguments.rbegin(); word != arguments.rend() && !searched.empty(); ++word) {
+    const auto at = searched.find(*word);
+    if (at == searched.end()) continue;
+    searched.erase(at);
+    found.push_back(*word);
+  }
+  std::reverse(found.begin(), found.end());
+  std::string text = "not expected: ";
+  for (std::size_t i = 0; i < std::min(kShown, found.size()); ++i) text += (i == 0 ? "" : " ") + found[i];
+  return found.size() <= kShown ? text : text + " and " + std::to_string(found.size() - kShown) + " more";
 }
 
 // What is wrong with the usage.  CLI11 leaves a misspelt word over: naming it, and what was probably meant,
 // helps more than naming what is missing without it.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
-                        const std::vector<const CLI::App*>& levels) {
+                        const std::vector<const CLI::App*>& levels,
+                        const std::vector<std::string>& arguments) {
   std::vector<std::string> unknown = app.remaining(true);
   std::erase(unknown, "--");  // what only ends the options
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
@@ -107,6 +128,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
   const bool command_first = word != unknown.end() && (word == unknown.begin() || levels.size() > 1);
   if (no_command && command_first) return unknown_command(*word, *levels.back());
   if (option != unknown.end()) return unknown_option(*option, levels);
+  if (end.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
+    return unexpected_words(unknown, arguments);
   return no_command ? "no command was given" : plain_mismatch(end.what());
 }
 
@@ -128,7 +151,7 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   global.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   if (arguments.empty()) io.err << app.help();
   Console console(io.out, io.err, style_for(global, io));
-  const std::string wrong = usage_error(app, end, levels);
+  const std::string wrong = usage_error(app, end, levels, arguments);
   const std::string help = (wrong.ends_with('?') ? " See " : "; see ") + command + " --help";
   console.error(ClientError(ExitCode::kUsage, wrong + help));
   return static_cast<int>(ExitCode::kUsage);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/cli/number_parsers.h"
 #include "client/cli/value_checks.h"
@@ -39,6 +40,11 @@ void prepare_output_dir(const std::string& directory) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw error_from_errno(error.value(), "cannot create the directory", directory);
+  try {
+    const base::AtomicFile trial(fs::path(directory) / ".affskel");  // never appears
+  } catch (const base::FileError& failed) {
+    throw error_from_errno(failed.code().value(), "cannot write there", directory);
+  }
 }
 
 std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
@@ -118,6 +124,17 @@ SubmittedSolid solid_of(Context& context, const std::string& file, const RepairC
   return found;
 }
 
+// What keeps the id from being printed does not keep the job from being computed.
+template <typename Print>
+void print_of(const v1::Job& job, Print&& print) {
+  try {
+    print();
+  } catch (const ClientError& error) {
+    throw ClientError(error.exit_code(), std::string(error.what()) + "; job " + job.id() + " was submitted",
+                      error.file());
+  }
+}
+
 void run_submit(Context& context, const SubmitOptions& options) {
   Console& console = context.console();
   const RepairChoice repair = chosen_repair(options.repair);
@@ -133,7 +150,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   const Submitted submitted =
       submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);
   v1::Job job = submitted.job;
-  console.result(job.id() + "\n");
+  print_of(job, [&] { console.result(job.id() + "\n"); });
   say(console, reuse_notices(submitted));
   const bool wait = options.wait || !options.output_dir.empty();
   if (wait) job = follow(context, job.id(), false, !options.output_dir.empty());
@@ -143,7 +160,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   if (job.state() == v1::JOB_STATE_DONE && !options.output_dir.empty()) {
     document["files"] = paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
   }
-  console.document(document);
+  print_of(job, [&] { console.document(document); });
   if (wait) show_end(context, job, said);
 }
 
@@ -221,9 +238,9 @@ void add_submit(CommandLine& line) {
                "  affskel-client make torus -o - | affskel-client submit - --wait",
                [options](Context& context) { run_submit(context, *options); });
   command
-      ->add_option("FILE", o.file,
-                   "Closed triangle mesh: " + std::string(kMeshKinds) +
-                       ";\nsubmitted as OFF text. - reads it from stdin")
+      ->add_option(
+          "FILE", o.file,
+          "Closed triangle mesh: " + mesh_kinds() + ";\nsubmitted as OFF text. - reads it from stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

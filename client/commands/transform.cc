@@ -95,7 +95,7 @@ void run_transform(Context& context, const TransformOptions& options, const std:
   try {
     shape.off.mesh = core::map_mesh(map, shape.mesh());
   } catch (const core::CoreError& error) {
-    throw error_from_core(error, options.file);
+    throw error_from_core(error, shape.path);
   }
   map_columns(map, shape);
   say(console, lost_in_format(shape, format, destination.name()));
@@ -129,8 +129,9 @@ void add_transform(CommandLine& line) {
       "other\n"
       "columns stay. A mirrored surface is turned over, so that it stays outward.",
       [options, steps](Context& context) { run_transform(context, *options, steps->in_order()); });
-  add_file(command, "FILE", options->file,
-           "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat");
+  add_file(
+      command, "FILE", options->file,
+      "Mesh, surface, skeleton or field: .off .ply .obj .stl .vtp .csv .xyz .dat;\n- reads it from stdin, of a kind that its content tells");
   add_output(command, options->output,
              "File to write: .off .ply .obj .stl .vtp for triangles,\n.csv .ply .off .xyz .vtp for points");
   add_format(command, options->format);

@@ -2,12 +2,14 @@
 #include <memory>
 #include <thread>
 
+#include "base/number_text.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/value_checks.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/job_options.h"
 #include "client/text/message_json.h"
 #include "client/text/printable.h"
+#include "client/text/shell_quoted.h"
 #include "client/text/verification_text.h"
 
 namespace affskel::client {
@@ -23,8 +25,9 @@ struct VerifyOptions {
 /// Asks until nothing more will happen; tells once why it waits.
 v1::Verification follow_verification(Context& context, const VerifyOptions& options) {
   v1::Verification verification = context.session().verify(options.job, options.share, 0);
-  set_interrupt_message("The verification goes on; affskel-client verify " + verification.job() +
-                        " follows it again.");
+  const std::string again = "verify " + verification.job() + " --share " + base::to_text(options.share);
+  set_interrupt_message("\nthe verification goes on; follow it again with: " + context.next_command(again) +
+                        "\n");
   std::string told;
   while (!verification.finished()) {
     if (const std::string& why = verification.waiting_reason(); !why.empty() && why != told) {
@@ -47,8 +50,9 @@ void run_verify(Context& context, const VerifyOptions& options) {
   if (const v1::VerifiedSample* sample = first_differing(verification)) {
     std::string why = difference_text(*sample);
     if (sample->givers_size() > 0)
-      why += "; affskel-client resume " + verification.job() + " --distrust " +
-             one_line(sample->givers(0).worker()) + " has it computed again";
+      why += "; have it computed again with: " +
+             context.next_command("resume " + verification.job() + " --distrust " +
+                                  shell_quoted(one_line(sample->givers(0).worker())));
     throw ClientError(ExitCode::kJobFailed, why);
   }
   if (const std::string why = gap_text(verification); !why.empty()) {

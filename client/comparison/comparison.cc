@@ -6,8 +6,6 @@
 
 #include "base/number_text.h"
 #include "client/base/error.h"
-#include "client/files/read/input_file.h"
-#include "client/files/read/read_shape.h"
 #include "core/base/error.h"
 #include "core/mesh/box.h"
 #include "core/quality/interior_points.h"
@@ -55,8 +53,10 @@ double spread_points(const ShapeFile& shape, std::uint64_t samples, std::vector<
   return distance;
 }
 
-ComparedPoints read_points(const std::string& path, std::uint64_t samples, Notices& notices) {
-  ShapeFile shape = read_shape(path);
+ComparedPoints read_points(const std::string& file, std::uint64_t samples, const FileWork& work,
+                           Notices& notices) {
+  ShapeFile shape = work.read(file);
+  const std::string path = shape.path;
   ComparedPoints result{path, shape.is_surface(), {}};
   if (!shape.is_surface()) {
     result.points = std::move(shape.off.mesh.points);
@@ -82,14 +82,14 @@ ComparedPoints read_points(const std::string& path, std::uint64_t samples, Notic
   return result;
 }
 
-core::Solid read_solid(const std::string& path, Notices& notices) {
+core::Solid read_solid(const std::string& path, const FileWork& work, Notices& notices) {
   InputFile input;
   input.path = path;
-  input.off = read_shape(path).off;
+  input.off = work.read(path).off;
   if (input.off.mesh.triangles.empty()) {
     throw ClientError(ExitCode::kBadInput, "has no triangles, so it bounds no solid", path);
   }
-  core::Solid solid = check_solid(input, true);
+  core::Solid solid = work.make_solid(input);
   append(notices, solid_notices(solid, input));
   return solid;
 }
@@ -166,16 +166,16 @@ std::vector<double> default_radii(double radius, bool squared) {
 
 }  // namespace
 
-Comparison compare_files(const ComparisonOptions& options) {
+Comparison compare_files(const ComparisonOptions& options, const FileWork& work) {
   Notices notices;
   const std::vector<double> listed = options.radii.empty() ? std::vector<double>() : listed_radii(options);
   double radius = plain_radius(options.radius, options.squared, "radius");
-  ComparedPoints a = read_points(options.a, options.samples, notices);
-  ComparedPoints b = read_points(options.b, options.samples, notices);
+  ComparedPoints a = read_points(options.a, options.samples, work, notices);
+  ComparedPoints b = read_points(options.b, options.samples, work, notices);
   const double side = common_side(a, b);
   std::optional<ChanceLevel> chance;
   if (!options.solid.empty()) {
-    const core::Solid solid = read_solid(options.solid, notices);
+    const core::Solid solid = read_solid(options.solid, work, notices);
     const std::vector<core::Vec3> inner = inner_points_of(solid, options.solid);
     chance =
         ChanceLevel{inner.size(), core::DistanceCurve(inner, a.points), core::DistanceCurve(inner, b.points)};

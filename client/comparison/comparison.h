@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "client/base/notice.h"
+#include "client/base/shape_file.h"
+#include "client/files/read/input_file.h"
 #include "client/render/curve_plot.h"
 #include "core/quality/similarity.h"
 
@@ -47,9 +50,15 @@ struct Comparison {
   Notices notices;            ///< what was made of the files
 };
 
+/// What is done with the files, which may be bounded from outside.
+struct FileWork {
+  std::function<ShapeFile(const std::string& path)> read;         ///< as read_shape
+  std::function<core::Solid(const InputFile& input)> make_solid;  ///< as check_solid with repairs
+};
+
 /// Reads and compares.
 /// @throws ClientError kUsage for radii that are none, kBadInput for files without points.
-Comparison compare_files(const ComparisonOptions& options);
+Comparison compare_files(const ComparisonOptions& options, const FileWork& work);
 
 /// The table and the summary, for people.
 std::string comparison_text(const Comparison& comparison);

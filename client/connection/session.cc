@@ -5,7 +5,12 @@
 #include <grpcpp/security/credentials.h>
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
 
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "base/pause.h"
@@ -63,6 +68,19 @@ bool is_away(const grpc::Status& status) {
          status.error_code() == grpc::StatusCode::CANCELLED;
 }
 
+// Tells when what is done while it lives takes long.
+class TellIfSlow {
+ public:
+  TellIfSlow(std::chrono::milliseconds silence, std::function<void()> tell)
+      : thread_([silence, tell = std::move(tell)](const std::stop_token& stop) {
+          base::pause(silence, stop);
+          if (!stop.stop_requested()) tell();
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
 class MemorySink : public ArtifactSink {
  public:
   explicit MemorySink(std::string& bytes) : bytes_(bytes) {}
@@ -118,6 +136,7 @@ class Session::Link {
   grpc::Status watch_once(Stub& stub, const v1::WatchJobRequest& request, v1::Job& last,
                           const std::function<void(const v1::Job&)>& seen);
   [[noreturn]] void fail(const grpc::Status& status, ExitCode not_yet) const;
+  TellIfSlow tell_if_slow();
   void notify_away();
   void notify_busy(const std::string& why);
 
@@ -130,6 +149,7 @@ class Session::Link {
   std::unique_ptr<Stub> stub_;
   bool proven_ = false;     // the server answered at least once
   bool told_away_ = false;  // that it went away; until it is back
+  std::atomic<bool> told_slow_ = false;
 };
 
 Session::Session(ServerChoice choice, Environment environment, Listener listener, RetryPolicy policy)
@@ -145,6 +165,7 @@ void Session::notify(const Notice& notice) const {
 void Session::Link::connect() {
   wire::Address address = choice_.address;
   if (choice_.embedded) {
+    const TellIfSlow slow = tell_if_slow();
     address = ensure_embedded_server(embedded_paths(environment_), {}, environment_, listener_);
   }
   target_ = address.target();
@@ -188,6 +209,12 @@ void Session::Link::fail(const grpc::Status& status, ExitCode not_yet) const {
   throw ClientError(error.exit_code(), std::string(error.what()) + " (address from " + choice_.origin + ")");
 }
 
+TellIfSlow Session::Link::tell_if_slow() {
+  return {policy_.silence, [this] {
+            if (!told_slow_.exchange(true)) notify(note("NO_ANSWER_YET", "the server has not answered yet"));
+          }};
+}
+
 void Session::Link::notify_away() {
   if (proven_ && !told_away_) notify(note("SERVER_AWAY", "the server went away; trying to reach it again"));
   told_away_ = true;
@@ -205,6 +232,7 @@ Response Session::Link::unary(const Request& request,
   run([&](Stub& stub) {
     grpc::ClientContext context;
     const CancelOnStop cancel(context, policy_.stop);
+    const TellIfSlow slow = tell_if_slow();
     context.set_deadline(std::chrono::system_clock::now() + policy_.call_deadline);
     response.Clear();
     return (stub.*method)(&context, request, &response);

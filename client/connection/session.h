@@ -23,6 +23,7 @@ struct RetryPolicy {
   /// Longest that a fetch waits for a worker and for all bytes; 0 = as long as it takes.
   std::chrono::milliseconds artifact_patience{0};
   std::chrono::milliseconds call_deadline{30000};  ///< of calls that answer at once
+  std::chrono::milliseconds silence{5000};         ///< of such a call until it is told
   std::stop_token stop = {};                       ///< ends the calls and the pauses between them
 };
 

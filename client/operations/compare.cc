@@ -14,7 +14,7 @@ class Pending {
  public:
   Pending(const std::string& path, FileFormat format, const char* what) {
     if (path.empty()) return;
-    choose_format(path, std::array{format}, what);
+    choose_format(Destination{path}, std::array{format}, what);
     file_.emplace(path);
   }
   explicit operator bool() const { return file_.has_value(); }
@@ -30,9 +30,9 @@ class Pending {
 
 }  // namespace
 
-Comparison compare(const CompareRequest& request) {
+Comparison compare(const CompareRequest& request, const FileWork& work) {
   Pending plot(request.plot, FileFormat::kSvg, "plot"), table(request.table, FileFormat::kCsv, "table");
-  Comparison comparison = compare_files(request.comparison);
+  Comparison comparison = compare_files(request.comparison, work);
   if (plot) plot.fill(svg_of(comparison_plot(comparison)));
   if (table) table.fill(comparison_csv(comparison));
   if (plot) plot.appear();

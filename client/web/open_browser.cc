@@ -2,15 +2,41 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <chrono>
+#include <future>
+#include <thread>
+#include <utility>
 
 #include "base/atomic_file.h"
 
 extern char** environ;
 
 namespace affskel::client {
+namespace {
+
+// xdg-open fails within it, where it does; a browser that it becomes stays.
+constexpr std::chrono::seconds kLooked{2};
+
+// Reaps the child whenever it ends.
+// @return whether it failed within kLooked.
+bool fails_soon(pid_t child) {
+  std::promise<int> ended;
+  std::future<int> status = ended.get_future();
+  std::thread([child, end = std::move(ended)]() mutable {
+    int found = 0;
+    while (waitpid(child, &found, 0) < 0 && errno == EINTR) {
+    }
+    end.set_value(found);
+  }).detach();
+  return status.wait_for(kLooked) == std::future_status::ready && status.get() != 0;
+}
+
+}  // namespace
 
 bool open_browser(const std::string& address, const std::filesystem::path& file,
                   const Environment& environment) {
@@ -31,7 +57,7 @@ bool open_browser(const std::string& address, const std::filesystem::path& file,
   pid_t pid = 0;
   const int error = posix_spawnp(&pid, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  return error == 0;
+  return error == 0 && !fails_soon(pid);
 }
 
 }  // namespace affskel::client

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <string>
 #include <vector>
 
 #include "base/directory.h"
@@ -17,11 +20,20 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
+// The process's umask.  umask(2) tells it only by setting another, which another thread's new file would get, and
+// two threads that do so at a time would leave.
+mode_t read_umask() {
+  constexpr mode_t kUsual = 022;  // where /proc is not mounted
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("Umask:")) return static_cast<mode_t>(std::strtoul(line.c_str() + 6, nullptr, 8));
+  }
+  return kUsual;
+}
+
 // What open(2) would have given a new file.
 mode_t default_mode() {
-  const mode_t mask = umask(0);
-  umask(mask);
-  return 0666 & ~mask;
+  return 0666 & ~read_umask();
 }
 
 // Where a symbolic link leads that points to no file yet: open(2) would make that file.
@@ -77,6 +89,9 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::open_stream(const fs::path& target) {
   if (target == "-") target_ = "standard output";
+  // Known now, not when all is done: programs keep the place of a closed one by what can only be read.
+  const bool closed = target == "-" && (fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY;
+  if (closed) throw FileError(EBADF, "cannot write", target_);
   stream_ =
       target == "-" ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : open(target.c_str(), O_WRONLY | O_CLOEXEC);
   if (stream_ < 0) fail("cannot write");

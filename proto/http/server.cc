@@ -1,5 +1,7 @@
 #include "http/server.h"
 
+#include <signal.h>
+
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -7,7 +9,6 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <csignal>
 #include <system_error>
 #include <utility>
 
@@ -25,6 +26,13 @@ using boost::system::error_code;
 
 // Without descriptors, so much time for connections to end.
 constexpr std::chrono::milliseconds kPause{100};
+
+// nohup and shells that start in the background have their process ignore some signals: it keeps that.
+bool is_ignored(int signal_number) {
+  struct sigaction current {};
+  sigaction(signal_number, nullptr, &current);
+  return current.sa_handler == SIG_IGN;
+}
 
 tcp::acceptor listen(asio::io_context& io, const wire::Address& address) {
   const auto fail = [](const error_code& error) {
@@ -66,7 +74,9 @@ class Server::Impl {
   void run(bool by_signal) {
     asio::signal_set signals(io_);
     if (by_signal) {
-      for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) signals.add(signal_number);
+      for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+        if (!is_ignored(signal_number)) signals.add(signal_number);
+      }
       signals.async_wait([this](const error_code& error, int) {
         if (error) return;
         base::limit_end();

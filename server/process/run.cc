@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -188,7 +189,8 @@ class Supervised {
 };
 
 void run_server(const Options& options) {
-  umask(0077);  // meshes and results are this user's alone
+  umask(0077);                    // meshes and results are this user's alone
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is then told as a full disk
   keep_memory_small();
   limit_the_end();
   Signals signals;

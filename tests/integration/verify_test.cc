@@ -8,6 +8,7 @@
 
 #include "affskel/v1/worker_service.grpc.pb.h"
 #include "lab.h"
+#include "terminal.h"
 #include "wire/direction_order.h"
 #include "wire/limits.h"
 
@@ -133,7 +134,9 @@ TEST_F(VerifyTest, TooSmallValuesAreFoundAndMended) {
   const Output found = lab_.client({"verify", job});
   EXPECT_EQ(found.exit_code, 1) << found.out << found.err;
   EXPECT_NE(found.out.find(std::string(kLiar) + " on broken-host"), std::string::npos) << found.out;
-  EXPECT_NE(found.err.find("resume " + job + " --distrust " + kLiar), std::string::npos) << found.err;
+  const std::string mend =
+      "affskel-client --server " + lab_.address() + " resume " + job + " --distrust " + kLiar;
+  EXPECT_NE(found.err.find(mend), std::string::npos) << found.err;
   EXPECT_NE(lab_.client({"log", job}).out.find(std::string("given by ") + kLiar), std::string::npos);
 
   EXPECT_EQ(lab_.client({"resume", job, "--distrust", "broken-host"}).exit_code, 0);
@@ -146,6 +149,26 @@ TEST_F(VerifyTest, TooSmallValuesAreFoundAndMended) {
   v1::Lease lease;
   EXPECT_EQ(liar_->lease(lease).error_code(), grpc::StatusCode::PERMISSION_DENIED);
   EXPECT_EQ(lab_.run({AFFSKEL_SERVER_BINARY, "check", "--data-dir", lab_.path("data")}).exit_code, 0);
+}
+
+TEST_F(VerifyTest, CtrlCLeavesTheCommandThatFollowsIt) {
+  const Process server = lab_.server();
+  lab_.make_torus(100);
+  std::string job;
+  {
+    const Process worker = lab_.worker({"--threads", "1"});
+    job = lab_.submit({"--points", "500"});
+    ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+  }
+  const std::string client = std::string(AFFSKEL_CLIENT_BINARY) + " --server " + lab_.address();
+  Terminal verify(client + " verify " + job + " --share 10%");
+  verify.read_until("waits: ");
+  verify.type("\x03");
+  const std::string text = verify.read_all();
+  EXPECT_NE(text.find("follow it again with: affskel-client --server " + lab_.address() + " verify " + job +
+                      " --share 0.1\r\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST_F(VerifyTest, SilenceIsFoundAndMended) {

@@ -3,11 +3,12 @@
 class FakeElement extends EventTarget {
   constructor(name) {
     super();
-    Object.assign(this, { name, attributes: {}, children: [], style: {} });
+    Object.assign(this, { name, attributes: {}, children: [], style: {}, value: '' });
   }
 
   setAttribute(name, value) {
     this.attributes[name] = String(value);
+    if (name === 'value') this.value = String(value);
   }
 
   append(...children) {
@@ -16,6 +17,16 @@ class FakeElement extends EventTarget {
 
   replaceChildren(...children) {
     this.children = children;
+  }
+
+  // The first of this kind below.
+  querySelector(name) {
+    for (const child of this.children) {
+      if (child.name === name) return child;
+      const found = child.querySelector?.(name);
+      if (found) return found;
+    }
+    return null;
   }
 
   get textContent() {

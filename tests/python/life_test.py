@@ -176,8 +176,9 @@ class Waiting(WithDirectory):
             self.assertEqual(len(job.directions(timeout=timeout)), 12)
         self.assertRegex(repr(job.status()), "^<affskel.Status of .*, done, [0-9]+ points, skeleton of [0-9]+: it is hardly more than a point.*>$")
         for call in (job.wait, job.lattice):
-            with self.assertRaises(affskel.UsageError):
-                call(timeout=float("nan"))
+            for wrong in (float("nan"), "x", True, [1]):
+                with self.subTest(wrong), self.assertRaisesRegex(affskel.UsageError, "timeout is "):
+                    call(timeout=wrong)
 
     def test_a_finished_job_tells_what_it_was(self):
         client = self.client(self.server())
@@ -191,6 +192,9 @@ class Waiting(WithDirectory):
         self.assertEqual(client.job("@last"), job)
         self.assertEqual([one.id for one in client.jobs(state="done", limit=1)], [job.id])
         self.assertEqual(client.jobs(state="failed"), [])
+        for wrong in (0, -1, 1.5, True, "1"):
+            with self.subTest(wrong), self.assertRaisesRegex(affskel.UsageError, "the limit .* above 0"):
+                client.jobs(limit=wrong)
 
     def test_a_mesh_of_several_messages_goes_there_and_back(self):
         client = self.client(self.server())
@@ -264,6 +268,9 @@ class Errors(WithDirectory):
             client.submit(points)
         with self.assertRaisesRegex(affskel.BadInputError, "is empty"):
             client.submit(b"")
+        for nothing, words in ((b"OFF\n0 0 0\n", "no points"), (b"OFF # a point\n1 0 0\n0 0 0\n", "no faces")):
+            with self.assertRaisesRegex(affskel.BadInputError, words):
+                client.submit(nothing)
         with self.assertRaisesRegex(affskel.BadInputError, "vertex 1 is not finite"):
             client.submit(CUBE.encode().replace(b"1 0 0", b"1 nan 0", 1))
         wrong = "spacing 200 .* measures 1 x 1 x 1 units, the size of a person in metres; a spacing of 0.022 gives 100000"
@@ -277,7 +284,7 @@ class Errors(WithDirectory):
             with self.assertRaisesRegex(affskel.BadInputError, "leaves no room"):
                 client.submit(mesh, spacing=.6)
         self.assertNotIsInstance(failure.exception, affskel.JobFailedError)
-        for wrong in ("10mm", "10", None, True):
+        for wrong in ("10mm", "10", None, True, "150%", "100%", "1_0%", "\u0661%", "inf%", "0%"):
             with self.assertRaisesRegex(affskel.UsageError, "points is a number" if wrong is None else "spacing is a number"):
                 client.submit((cube, faces), **({"points": [1]} if wrong is None else {"spacing": wrong}))
         self.assertEqual(client.jobs(), [])

@@ -42,8 +42,9 @@ class Peer {
 /// A server on a loopback port, running in a thread.
 class RunningServer {
  public:
-  RunningServer(AdmitRequest admit, Limits limits = {}, TlsContexts tls = {})
-      : server_(loopback(), std::move(tls), std::move(admit), limits), thread_([this] { server_.run(); }) {}
+  RunningServer(AdmitRequest admit, Limits limits = {}, TlsContexts tls = {}, bool by_signal = false)
+      : server_(loopback(), std::move(tls), std::move(admit), limits),
+        thread_([this, by_signal] { server_.run(by_signal); }) {}
   ~RunningServer() {
     server_.stop();
     thread_.join();

@@ -2,9 +2,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "client/base/mesh_extensions.h"
 #include "client/cli/value_checks.h"
 
 namespace affskel::client {
+
+std::string mesh_kinds() {
+  return "Geomview OFF," + listed(std::span(kMeshExtensions).subspan(1)) +
+         ", also by gzip or zstd;\nvoxels in" + listed(kVoxelExtensions);
+}
 
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what) {
   command->add_option(name, file, what)->required()->check(non_empty())->type_name("FILE");

@@ -7,8 +7,7 @@
 namespace affskel::client {
 
 /// The files that a mesh is read from, for the help.
-inline constexpr const char* kMeshKinds =
-    "Geomview OFF, .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd;\nvoxels in .nrrd .nhdr .mha .mhd .nii";
+std::string mesh_kinds();
 
 /// --isovalue.
 void add_isovalue(CLI::App* command, std::optional<double>& isovalue);

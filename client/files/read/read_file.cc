@@ -31,6 +31,7 @@ ClientError too_large(const std::string& path, std::uint64_t max_bytes) {
 }
 
 [[noreturn]] void unreadable(const std::string& path) {
+  if (errno == EBADF) throw ClientError(ExitCode::kUsage, "is closed", path);
   if (errno == EISDIR) throw ClientError(ExitCode::kBadInput, "is a folder; name a file in it", path);
   throw ClientError(ExitCode::kBadInput, "cannot read: " + std::system_category().message(errno), path);
 }

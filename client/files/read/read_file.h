@@ -19,6 +19,7 @@ ClientError out_of_memory(const std::string& path);
 std::string read_file(const std::string& path, std::uint64_t max_bytes = kMaxFileBytes);
 
 /// The same of standard input, to its end.  @param name of it in messages.
+/// @throws ClientError the same, and kUsage when it is closed.
 std::string read_standard_input(const std::string& name, std::uint64_t max_bytes = kMaxFileBytes);
 
 }  // namespace affskel::client

@@ -11,6 +11,7 @@
 namespace affskel::client {
 
 ShapeFile read_shape(const std::string& path) {
+  if (path == "-") return parse_shape("stdin", read_standard_input("stdin"));
   return parse_shape(path, read_file(path));
 }
 

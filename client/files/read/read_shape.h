@@ -7,7 +7,7 @@
 
 namespace affskel::client {
 
-/// Reads the shape of a file, see core::parse_shape.
+/// Reads the shape of a file, see core::parse_shape; "-" is standard input, whose path becomes "stdin".
 /// @throws ClientError kBadInput with the line where there is one; kLimit when the file is too large.
 ShapeFile read_shape(const std::string& path);
 

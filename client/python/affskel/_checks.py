@@ -39,6 +39,20 @@ def polygons_of_off(text: bytes) -> Optional[Polygons]:
     return Polygons(numbers[:3 * vertices].reshape(-1, 3), [rows[:, 1:]])
 
 
+def require_counts(text: bytes, file: str = "") -> None:
+    """Raises BadInputError for OFF text that has no points or no faces; what is no plain OFF text is for others to read."""
+    words = re.sub(rb"#[^\n]*", b"", text).split()
+    if not words or words.pop(0) != b"OFF":
+        return
+    try:
+        vertices, faces = int(words[0]), int(words[1])
+        np.array(words[3:], np.float64)
+    except (ValueError, IndexError):
+        return
+    if vertices < 1 or faces < 1:
+        raise BadInputError(f"the mesh has no {'points' if vertices < 1 else 'faces'}", file=file)
+
+
 def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
     """The different points, and which of them each is.
 
@@ -63,15 +77,15 @@ def number_of(value: object, what: str, more: str = "") -> float:
         raise UsageError(f"{what} is too large a number") from error
 
 
+_SHARE = re.compile(r"\+?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?%")  # as affskel-client takes them
+
+
 def share_of(text: object) -> Optional[float]:
-    """"5%" as 0.05; None for what is no share."""
-    if not isinstance(text, str) or not text.endswith("%"):
+    """"5%" as 0.05; None for what is no share between 0 and 1."""
+    if not isinstance(text, str) or not _SHARE.fullmatch(text):
         return None
-    try:
-        share = float(text[:-1]) / 100
-    except ValueError:
-        return None
-    return share if 0 < share < float("inf") else None
+    share = float(text[:-1]) / 100
+    return share if 0 < share < 1 else None
 
 
 def longest_side(mesh: Polygons) -> float:

@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Union
 
-from ._checks import MAX_POINTS, longest_side, number_of, require_closed, require_finite, require_points, share_of
+from ._checks import MAX_POINTS, longest_side, number_of, require_closed, require_counts, require_finite, require_points, share_of
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -69,7 +69,10 @@ def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) ->
         BadInputError: what a worker would say of the mesh much later.
     """
     if mesh.polygons is None:
-        return bool(mesh.file) and find_program() is not None
+        if mesh.file and find_program() is not None:
+            return True
+        require_counts(mesh.text or b"", mesh.file)
+        return False
     require_finite(mesh.polygons, mesh.file)
     try:
         require_closed(mesh.polygons, mesh.file)
@@ -209,18 +212,20 @@ class Client:
         Args:
             state: "queued", "running", "done", "failed" or "cancelled"; None = all.
             owner: None = all that the caller may see.
-            limit: how many at most.
+            limit: how many at most, at least 1.
 
         Raises:
-            UsageError: the state is no state.
+            UsageError: the state is no state, or the limit no such number.
 
         Example:
             >>> pandas.DataFrame(job.seen for job in affskel.jobs(state="done"))
         """
+        if isinstance(limit, bool) or not isinstance(limit, numbers.Integral) or limit < 1:
+            raise UsageError(f"the limit {limit!r} is not a whole number above 0")
         request = service.ListJobsRequest(owner=owner or "")
         if state is not None:
             request.states.append(value_of_word(types.JobState, state, "state"))
-        return [Job(self._session, job.id, seen=status_of(job)) for job in self._session.list_jobs(request, limit)]
+        return [Job(self._session, job.id, seen=status_of(job)) for job in self._session.list_jobs(request, int(limit))]
 
     def server_info(self) -> Dict[str, Any]:
         """Version, workers and queue of the server, by the names of ServerInfo in the contract, and its address.

@@ -17,6 +17,7 @@ from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, Type, T
 import grpc
 
 from ._channel import Token, token_of
+from ._checks import number_of
 from ._connection import Connection, check_process
 from ._errors import (AffskelError, InternalError, LimitError, NotAllowedError, NotFoundError, TimedOutError,
                       UnreachableError, UsageError)
@@ -333,7 +334,7 @@ class _Tries:
 
 def _deadline(timeout: Optional[float]) -> Optional[float]:
     """Of the clock `time.monotonic`.  gRPC takes a time beyond its own clock for one that is over."""
-    if timeout is None or timeout > LONGEST_TIMEOUT:
+    if timeout is None or number_of(timeout, "the timeout", " of seconds") > LONGEST_TIMEOUT:
         return None
     if timeout != timeout:
         raise UsageError("the timeout is not a number")

@@ -7,6 +7,8 @@ import { session } from './session.js';
 const kTyping = 300; // milliseconds after a key until the lattice is counted
 const kAgain = 500; // milliseconds until a count that found no place is tried again
 const kNoPlace = 429; // status: what was asked for before is still worked on
+// The sets of directions that the form has words for.
+const kSets = /^(triangles\+sphere|triangles|sphere|random)(?::(\d+)(?::(\d+))?)?$/;
 
 /** Sample points unless another number is asked for. */
 export const kUsualPoints = 100000;
@@ -40,7 +42,7 @@ export class SubmitForm {
   /** @param {any} mesh as the service tells of it */
   constructor(mesh) {
     this.mesh = mesh;
-    this.requestId = newRequest();
+    this.seed = '1'; // of directions at random; as text, for it may have 20 digits
     this.given = 'points'; // which of the two was typed
     this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: jobName(mesh.name) });
     this.points = numberField('points', { value: kUsualPoints });
@@ -59,6 +61,7 @@ export class SubmitForm {
     this.frame = choice('frame', session.words.frames);
     this.operator = choice('operator', session.words.operators);
     this.operator.value = session.usual.operator;
+    this.threshold = numberField('threshold', { placeholder: 'usual' });
     this.problem = h('p', { class: 'error', role: 'alert', hidden: true });
     this.submit = h('button', { type: 'submit', class: 'primary', id: 'submit' }, 'Compute the skeleton');
     this.element = this.build();
@@ -91,6 +94,7 @@ export class SubmitForm {
           field('minimum', 'Least over', this.minimum),
           field('frame', 'Lattice along', this.frame),
           field('operator', 'Skeleton by', this.operator),
+          field('threshold', 'with the threshold', this.threshold),
         ),
       ),
       this.problem,
@@ -104,17 +108,19 @@ export class SubmitForm {
    */
   like({ params, skeleton }) {
     const { sampling, directions, frame, minimum } = params;
-    const [, set, many] = /^(triangles\+sphere|triangles|sphere|random)(?::(\d+)(?::\d+)?)?$/.exec(directions) || [];
+    const [, set, many, seed] = kSets.exec(directions) || [];
     if (set) this.directions.value = set;
     if (many) this.howMany.value = many;
+    this.seed = seed || '1';
     this.howManyField.hidden = this.directions.value === 'triangles';
     for (const [control, value] of [[this.minimum, minimum], [this.frame, frame], [this.operator, skeleton.operator]]) {
       if (value) control.value = value;
     }
+    this.threshold.value = String(skeleton.threshold || '');
     const which = sampling?.spacing ? 'spacing' : 'points';
     this[which].value = String(sampling?.spacing || sampling?.target_points || kUsualPoints);
     this.typed(which);
-    const usual = set === 'triangles' && [minimum, frame, skeleton.operator].every((word, i) =>
+    const usual = set === 'triangles' && !skeleton.threshold && [minimum, frame, skeleton.operator].every((word, i) =>
       !word || word === [session.usual.minimum, session.usual.frame, session.usual.operator][i]);
     this.element.querySelector('details').open = !usual;
   }
@@ -125,6 +131,9 @@ export class SubmitForm {
     this.frame.addEventListener('change', () => this.typed(this.given));
     this.directions.addEventListener('change', () => {
       this.howManyField.hidden = this.directions.value === 'triangles';
+    });
+    this.operator.addEventListener('change', () => {
+      this.threshold.value = ''; // it was of the other one
     });
     this.element.addEventListener('submit', (event) => {
       event.preventDefault();
@@ -176,26 +185,46 @@ export class SubmitForm {
       triangles: 'triangles',
       sphere: `sphere:${many}`,
       'triangles+sphere': `triangles+sphere:${many}`,
-      random: `random:${many}:1`,
+      random: `random:${many}:${this.seed}`,
     };
     return sets[this.directions.value];
+  }
+
+  thresholdAsked() {
+    const text = this.threshold.value.trim();
+    if (text === '') return undefined;
+    const threshold = typed(text);
+    if (!(threshold > 0)) throw new Error('The threshold must be a number above 0, or empty for the usual one.');
+    return threshold;
+  }
+
+  asked() {
+    return {
+      mesh: this.mesh.mesh,
+      [this.given]: typed(this[this.given].value) || 0,
+      directions: this.directionSet(),
+      frame: this.frame.value,
+      minimum: this.minimum.value,
+      operator: this.operator.value,
+      threshold: this.thresholdAsked(),
+      name: this.name.value.trim(),
+    };
+  }
+
+  // What is asked again after an answer was lost is the same request; anything else is another.
+  requestOf(asked) {
+    const text = JSON.stringify(asked);
+    if (text !== this.lastAsked) this.requestId = newRequest();
+    this.lastAsked = text;
+    return { ...asked, request_id: this.requestId };
   }
 
   async send() {
     this.problem.hidden = true;
     this.submit.disabled = true;
     try {
-      const answer = await call('POST', '/api/jobs', {
-        mesh: this.mesh.mesh,
-        [this.given]: typed(this[this.given].value) || 0,
-        directions: this.directionSet(),
-        frame: this.frame.value,
-        minimum: this.minimum.value,
-        operator: this.operator.value,
-        name: this.name.value.trim(),
-        request_id: this.requestId,
-      });
-      this.requestId = newRequest(); // other parameters are another request
+      const answer = await call('POST', '/api/jobs', this.requestOf(this.asked()));
+      this.lastAsked = null;
       if (answer.existed) {
         this.problem.replaceChildren('The same was submitted before: ', h('a', { href: `#job/${answer.id}` }, answer.name), '. Other parameters above make another job of it.');
         this.problem.hidden = false;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -31,6 +32,7 @@ class FakeService final : public v1::ErosionService::Service {
   bool watch_stays_away = false;     ///< all further watches are UNAVAILABLE
   std::map<v1::ArtifactKind, std::string> artifacts;
   grpc::Status fails = grpc::Status::OK;  ///< when not OK, what every unary call answers
+  std::function<void()> hold;             ///< called before a question about a job is answered
   int busy = 0;                           ///< so many questions about a job get busy_status first
   grpc::Status busy_status{grpc::StatusCode::UNAVAILABLE, "too many calls"};
   bool damage = false;  ///< flip a byte of every artefact
@@ -66,6 +68,7 @@ class FakeService final : public v1::ErosionService::Service {
     return fails;
   }
   grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request, v1::Job* response) override {
+    if (hold) hold();
     if (request->job() == "000000") return {grpc::StatusCode::NOT_FOUND, "no job begins with 000000"};
     if (busy-- > 0) return busy_status;
     *response = job;

@@ -79,6 +79,12 @@ void set_text_attribute(hid_t group, const char* name, const std::string& text) 
   if (H5Awrite(attribute, type, text.data()) < 0) hdf5_failed("attribute");
 }
 
+// A file whose last bytes find no room cannot be closed.  Its identifier stays behind, and HDF5 would close it again
+// when the process ends, by what is freed then.
+void leave_no_work_for_the_end() {
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();  // heeded only before all other calls
+}
+
 // The types of arrays as they are stored; in memory all are converted from double.
 hid_t stored_type(GridType type) {
   return type == GridType::kFloat64 ? H5T_IEEE_F64LE
@@ -124,6 +130,7 @@ class VtkHdfGrid : public GridFile {
   VtkHdfGrid(base::AtomicFile& file, const LatticeGrid& grid, std::vector<GridArray> arrays,
              const FileFacts& facts)
       : out_(file), dims_(grid.dims), arrays_(std::move(arrays)) {
+    leave_no_work_for_the_end();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints its error stack by default; ours are thrown
     guarded([&] {
       open_ = std::make_unique<Open>(file.path());

@@ -80,6 +80,19 @@ TEST(BudgetDeathTest, SaysThatItMetItsMemory) {
       "error: scan.ply: reading it takes more than 67108864 bytes of memory \\(--memory\\)");
 }
 
+// What it has by then and all that there can be are still no more than all.
+TEST(BudgetDeathTest, TheGreatestMemoryIsNone) {
+  const Screen screen;
+  EXPECT_EXIT(
+      {
+        const Budgets budgets{.memory = ~std::uint64_t{0}};
+        const Budget budget(screen.console, budgets, Budget::Work::kReading, "scan.ply");
+        take(128 << 20);
+        _exit(0);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+
 // 0 when time, memory and what is asked for more are as they were.
 [[noreturn]] void work_after_a_budget() {
   const Screen screen;

@@ -7,9 +7,12 @@
 #include <cstdio>
 
 #include "client/base/error.h"
+#include "client/base/mesh_extensions.h"
 #include "client/cli/affine_steps.h"
 #include "client/cli/completions.h"
 #include "client/commands/shared/skeleton_options.h"
+#include "core/base/error.h"
+#include "core/files/read/parse_shape.h"
 #include "tools/files.h"
 #include "tools/temporary_directory.h"
 
@@ -226,6 +229,25 @@ std::string completed_by_bash(const std::string& words) {
     text.append(buffer.data(), got);
   EXPECT_EQ(pclose(pipe), 0) << words;
   return text;
+}
+
+TEST(Completions, OfferEveryKindOfMeshThatIsRead) {
+  const tests::TemporaryDirectory dir;
+  for (const char* name : {"a.off", "b.GLB", "c.3mf.gz", "d.stl.zst", "e.nrrd", "f.nii.gz", "g.txt", "h.gz"})
+    tests::write_file(dir / name, "");
+  std::string offered = completed_by_bash("affskel-client inspect '" + (dir / "") + "'");
+  for (const char* name : {"a.off", "b.GLB", "c.3mf.gz", "d.stl.zst", "e.nrrd", "f.nii.gz"})
+    EXPECT_NE(offered.find((dir / name) + " "), std::string::npos) << name;
+  for (const char* name : {"g.txt", "h.gz"}) EXPECT_EQ(offered.find(name), std::string::npos) << name;
+  for (const char* shell : {"zsh", "fish"})
+    EXPECT_NE(script(shell).find("3mf.zst"), std::string::npos) << shell;
+  for (const std::string_view extension : kMeshExtensions) {
+    try {
+      core::parse_shape(extension, "");
+    } catch (const core::CoreError& error) {
+      EXPECT_EQ(std::string(error.what()).find("not a known kind"), std::string::npos) << extension;
+    }
+  }
 }
 
 TEST(Completions, WorkInBash) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "client/files/read/read_shape.h"
 #include "client_fixture.h"
@@ -206,6 +207,35 @@ TEST_F(FileCommandsTest, CompareWritesBothFilesOrNone) {
   EXPECT_EQ(dir_.names().size(), 7u) << "temporary files are left";
 }
 
+TEST_F(FileCommandsTest, CompareWritesToStandardOutput) {
+  const std::vector<std::string> both = {"compare", dir_ / "a.csv", dir_ / "b.xyz"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = both;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ::testing::internal::CaptureStdout();
+    const Outcome done = run(arguments);
+    return std::pair(done, ::testing::internal::GetCapturedStdout());
+  };
+  const auto [table, csv] = with({"-o", "-", "--radii", "2"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_EQ(csv, "radius,squared_radius,a_in_b,b_in_a\n2,4,0.75,1\n");
+  EXPECT_EQ(table.out, "") << "nothing else is there";
+  EXPECT_NE(table.err.find("area"), std::string::npos) << "the table for people";
+  EXPECT_TRUE(with({"--plot", "-"}).second.starts_with("<svg"));
+  EXPECT_EQ(with({"--plot", "-", "-o", "-"}).first.exit_code, 2);
+  EXPECT_EQ(with({"--json", "-o", "-"}).first.exit_code, 2);
+}
+
+// In a process of its own, which the budget ends.
+TEST_F(FileCommandsTest, CompareHasTheBudgetsOfOtherCommands) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";  // a new process has no memory to spare
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 100000; ++i) points += std::to_string(i) + ",0,0\n";
+  tests::write_file(dir_ / "many.csv", points);
+  EXPECT_EXIT(run({"--memory", "10K", "compare", dir_ / "many.csv", dir_ / "a.csv"}),
+              ::testing::ExitedWithCode(8), "many.csv: reading it takes more than 10240 bytes of memory");
+}
+
 TEST_F(FileCommandsTest, StlThatWouldBeSpoiltIsRefusedByName) {
   const Outcome done =
       run({"transform", dir_ / "box.off", "-o", dir_ / "far.stl", "--translate", "1e9,1e9,1e9"});
@@ -337,6 +367,8 @@ TEST_F(FileCommandsTest, PerturbRefusesWhatIsNoNoise) {
   for (const std::vector<std::string>& extra :
        std::vector<std::vector<std::string>>{{},
                                              {"--noise", "-1%"},
+                                             {"--noise", "0"},
+                                             {"--noise", "0%"},
                                              {"--noise", "x"},
                                              {"--noise", "%"},
                                              {"--sigma", "-1"},

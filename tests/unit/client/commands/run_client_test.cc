@@ -38,6 +38,38 @@ TEST_F(ClientTest, SaysHowManyThereMayBe) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("JOB: at most 2, not 3; see affskel-client view --help"), std::string::npos)
       << refused.err;
+  const Outcome few = run({"make", "box", "--size", "1,2", "-o", dir_ / "x.off"});
+  EXPECT_NE(few.err.find("--size: at least 3, not 2;"), std::string::npos) << few.err;
+}
+
+TEST_F(ClientTest, WordsTooManyAreToldInTheirOrderAndNotByTheThousand) {
+  const auto said = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> arguments = {"status"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return run(arguments).err;
+  };
+  EXPECT_NE(said({"A", "B", "C"}).find("not expected: B C; see"), std::string::npos) << said({"A", "B", "C"});
+  EXPECT_NE(said({"A", "A"}).find("not expected: A; see"), std::string::npos);
+  EXPECT_NE(said({"A", "B", "C", "D", "E", "F"}).find("not expected: B C D and 2 more; see"),
+            std::string::npos);
+}
+
+TEST_F(ClientTest, MemoryIsAWholeNumberOfBytesWithOrWithoutAUnit) {
+  const auto inspect = [&](const std::string& memory) {
+    return run({"--memory", memory, "inspect", dir_ / "cube.off"});
+  };
+  for (const char* good : {"0", "4294967296", "4194304K", "4096M", "4G"})
+    EXPECT_EQ(inspect(good).exit_code, 0) << good;
+  for (const char* wrong : {"-1", "1.5G", "2X", "2T", "2GB", "", "K", "17179869184G"}) {
+    const Outcome refused = inspect(wrong);
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_NE(refused.err.find(
+                  "--memory: must be a whole number of bytes, or one with K, M or G for powers of 1024 "
+                  "behind it, not '" +
+                  std::string(wrong) + "'"),
+              std::string::npos)
+        << refused.err;
+  }
 }
 
 TEST_F(ClientTest, AMeshWhereAJobIsWantedIsToldToBeSubmitted) {

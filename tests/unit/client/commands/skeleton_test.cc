@@ -102,6 +102,8 @@ TEST_F(ClientTest, CurvesAreToldAndMissedWhereTheyHaveNoPlace) {
   const Outcome vtp = run({"--json", "surface", "@last", "-o", dir_ / "p.vtp"});
   EXPECT_NE(vtp.err.find("1 triangle, 1 segment of curves"), std::string::npos) << vtp.err;
   EXPECT_EQ(json::parse(vtp.out).at("segments"), 1);
+  const std::string facts = run({"inspect", dir_ / "p.vtp"}).out;
+  EXPECT_NE(facts.find(" of curves\n"), std::string::npos) << "which have no line: " << facts;
   const ShapeFile shape = read_shape(dir_ / "p.vtp");
   EXPECT_EQ(shape.segments, (std::vector<core::Segment>{{2, 3}}));
   EXPECT_DOUBLE_EQ(shape.column("radius")->values[3], 10);

@@ -1,12 +1,15 @@
 // `submit`, against a server in this process.
 #include "client/commands/run_client.h"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "client_fixture.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
 #include "core/text/off_file.h"
+#include "test_environment.h"
 #include "tools/files.h"
 #include "wire/sha256.h"
 
@@ -36,6 +39,28 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_FALSE(header.params().repair());
   EXPECT_EQ(header.skeleton().threshold(), 5);
   EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_RIDGE);
+}
+
+// Nobody can make files in /sys.
+TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFolderCanBeWritten) {
+  const Outcome refused = run({"submit", dir_ / "cube.off", "-o", "/sys"});
+  EXPECT_EQ(refused.exit_code, 7);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_NE(refused.err.find("/sys: cannot write there: "), std::string::npos) << refused.err;
+  EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+}
+
+TEST_F(ClientTest, AnIdThatCannotBePrintedIsToldWithTheReason) {
+  for (const bool as_json : {false, true}) {
+    std::ofstream full("/dev/full");
+    std::ostringstream err;
+    std::vector<std::string> arguments = {"--server", server_.address(), "submit", dir_ / "cube.off"};
+    if (as_json) arguments.insert(arguments.begin(), "--json");
+    const ClientIo io{full, err, false, test_environment({{"HOME", dir_.path()}}), {}};
+    EXPECT_EQ(run_client(arguments, io), 8);
+    EXPECT_NE(err.str().find("; job " + service_.job.id() + " was submitted"), std::string::npos)
+        << err.str();
+  }
 }
 
 TEST_F(ClientTest, SubmitAsksForTheInfimum) {

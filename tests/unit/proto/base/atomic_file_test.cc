@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <thread>
+#include <vector>
 
 #include "tools/files.h"
 #include "tools/temporary_directory.h"
@@ -55,6 +58,34 @@ TEST(AtomicFile, KeepsModeAndFollowsLinks) {
   struct stat info {};
   stat((dir / "real.txt").c_str(), &info);
   EXPECT_EQ(info.st_mode & 07777, 0640u);
+}
+
+// The process's own.
+mode_t umask_now() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mask;
+}
+
+TEST(AtomicFile, NewFilesHaveTheUmaskWhichThreadsLeaveAlone) {
+  const tests::TemporaryDirectory dir;
+  const mode_t before = umask(027);
+  std::atomic<int> other_modes = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&] {
+      for (int round = 0; round < 200; ++round) {
+        const AtomicFile file(dir / "out.txt");
+        struct stat info {};
+        stat(file.path().c_str(), &info);
+        if ((info.st_mode & 07777) != 0640) ++other_modes;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(other_modes, 0);
+  EXPECT_EQ(umask_now(), 027u);
+  umask(before);
 }
 
 TEST(AtomicFile, FollowsLinksThatLeadNowhereYet) {

@@ -1,6 +1,7 @@
 #include "http/server.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <condition_variable>
 #include <memory>
@@ -363,6 +364,23 @@ TEST(HttpServer, OnePersonHasAShareOfTheConnections) {
   EXPECT_EQ(second.read().status, 429);
   open.ring();
   EXPECT_EQ(first.read().status, 200);
+}
+
+TEST(HttpServer, KeepsIgnoringWhatItsStarterIgnored) {
+  const auto before = signal(SIGHUP, SIG_IGN);  // as nohup
+  {
+    RunningServer server(echo(100), {}, {}, true);
+    Peer peer(server.port());
+    ASSERT_TRUE(peer.send(get("/")));
+    EXPECT_EQ(peer.read().status, 200);  // so it hears signals by now
+    struct sigaction hangup {
+    }, interrupt{};
+    sigaction(SIGHUP, nullptr, &hangup);
+    sigaction(SIGINT, nullptr, &interrupt);
+    EXPECT_EQ(hangup.sa_handler, SIG_IGN);
+    EXPECT_NE(interrupt.sa_handler, SIG_DFL);
+  }
+  signal(SIGHUP, before);
 }
 
 TEST(HttpServer, SaysWhereItCannotListen) {
