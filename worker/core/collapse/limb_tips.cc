@@ -204,13 +204,13 @@ class Thinning {
       way[axis] = middle - line.root_place[axis];
       aside[axis] = middle - line.tip_place[axis];
     }
-    const Cell middle = middle_of_end(line.tip.root, way);
-    return norm(aside) > kFlat * radius_at(middle) ? middle : corner;
+    const std::optional<Cell> middle = middle_of_end(line.tip.root, way);
+    return middle && norm(aside) > kFlat * radius_at(*middle) ? *middle : corner;
   }
 
   // On the straight way from the root to the middle of the tips of a limb's lines, and on from there as far as the distance
-  // to the surface does not fall fast.
-  Cell middle_of_end(Cell root, const Vec3& way) const {
+  // to the surface does not fall fast; none where the solid bends away from it.
+  std::optional<Cell> middle_of_end(Cell root, const Vec3& way) const {
     const double length = norm(way);
     Cell best = root;
     std::uint32_t cube = DualComplex::cube_of(root);
@@ -218,7 +218,10 @@ class Thinning {
     double most = 0;
     for (double gone = 0; length > 0; gone += kWalk) {
       cube = stepped(cube, gone / length * way, at);
-      if (cube == DualComplex::kNone) break;
+      if (cube == DualComplex::kNone) {
+        if (gone <= length) return std::nullopt;
+        break;
+      }
       const Cell here = complex_.cell(cube, DualComplex::kUpperVertex);
       const double value = radius_at(here) + kSteep * gone;
       if (gone > length && value < most) break;

@@ -38,9 +38,17 @@ constexpr double kRound = 0.75, kFlat = 0.55;
 // How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
 constexpr double kHold = 0.02;
 
+// Times its length a limb's direction tells where it leads.
+constexpr double kTold = 3;
+
 // The mean of the squared sines between a direction and the lines of a joint: along one with less than the first, lines
 // that are about parallel do not tell where they meet, and with more than the other they do.
 constexpr double kParallel = 0.08, kOblique = 0.15;
+
+// Of the largest ball about where a joint began, or about the nearer end of a straight stretch: with less a line is not in
+// the middle.
+constexpr double kMiddle = 0.45;
+constexpr int kTries = 4;  // the half of a way that leads too far, before it is none
 
 constexpr double kFarForks = 2;  // sizes of a joint: how limbs part farther from there says nothing of it
 
@@ -232,6 +240,7 @@ class CentreLines {
     Matrix3 sum{}, angles{};
     Vec3 side;
     double lines = 0;
+    double untold = 0;  // weight that limbs lack, which are short beside the way from there to the joint
   };
 
   // Joints, and what lies in their balls.
@@ -270,10 +279,13 @@ class CentreLines {
     const double gap = norm(places_[from_last ? line.back() : line.front()] - q);
     const Vec3 t = outward(places_, inwards, 2 * kDirection * ball + input_.spacing, gap);
     if (t == Vec3{}) return;
-    const double weight = ball * ball;
+    const double length = kTold * norm(places_[inwards.back()] - q);
+    const double told = length < gap ? length * length / (gap * gap) : 1;
+    const double weight = told * ball * ball;
     const Vec3 to = q - dot(q, t) * t;
     meeting.side = meeting.side + weight * to;
     meeting.lines += 1;
+    meeting.untold += (1 - told) * ball * ball;
     const Matrix3 across = kIdentity3 + -1.0 * outer(t, t);
     meeting.sum = meeting.sum + weight * across;
     meeting.angles = meeting.angles + across;
@@ -284,8 +296,8 @@ class CentreLines {
     const double trace = meeting.sum[0].x + meeting.sum[1].y + meeting.sum[2].z;
     if (!(trace > 0)) return;
     const double hold = kHold * trace;
-    const Vec3 met = transposed_times(inverse_transposed(meeting.sum + hold * kIdentity3),
-                                      meeting.side + hold * places_[v]);
+    const Vec3 met = transposed_times(inverse_transposed(meeting.sum + (hold + meeting.untold) * kIdentity3),
+                                      meeting.side + hold * places_[v] + meeting.untold * start_[v]);
     const SymmetricEigen told = symmetric_eigen((1 / meeting.lines) * meeting.angles);
     Vec3 way;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -295,7 +307,16 @@ class CentreLines {
       way = way + (share * dot(met - start_[v], along) + (1 - share) * rest) * along;
     }
     const double away = norm(way), size = joints_[v].size;
-    go(v, start_[v] + (away > size ? std::max(0.0, 2 * size - away) / away : 1) * way);
+    go_in_middle(v, (away > size ? std::max(0.0, 2 * size - away) / away : 1) * way);
+  }
+
+  // From where a joint began, as far as it stays in the middle.
+  void go_in_middle(std::uint32_t v, Vec3 way) {
+    const double least = kMiddle * distance_.nearest(start_[v]);
+    for (int half = 0; half < kTries; ++half, way = 0.5 * way)
+      if (inside(start_[v] + way) && distance_.nearest(start_[v] + way) >= least)
+        return go(v, start_[v] + way);
+    go(v, start_[v]);
   }
 
   // Of a limb where it leaves its joint.
@@ -319,12 +340,18 @@ class CentreLines {
     return count > 0 ? sum / count : 0;
   }
 
-  // From the joint to the first vertex that is free, and from joint to joint where none is.
+  // From the joint to the first vertex that is free, and from joint to joint where none is; where that leads past a notch,
+  // it stays.
   void draw_straight(const std::vector<std::uint32_t>& line, const Free& free) {
     const auto draw = [&](std::size_t from, std::size_t to) {
       const Vec3 a = places_[line[from]], b = places_[line[to]];
-      for (std::size_t n = from + 1; n < to; ++n)
-        go(line[n], a + (static_cast<double>(n - from) / static_cast<double>(to - from)) * (b - a));
+      const double least = kMiddle * std::min(distance_.nearest(a), distance_.nearest(b));
+      std::vector<Vec3> straight;
+      for (std::size_t n = from + 1; n < to; ++n) {
+        straight.push_back(a + (static_cast<double>(n - from) / static_cast<double>(to - from)) * (b - a));
+        if (distance_.nearest(straight.back()) < least) return;
+      }
+      for (std::size_t n = from + 1; n < to; ++n) go(line[n], straight[n - from - 1]);
     };
     if (free.first >= free.last) {
       if (line.front() != line.back()) draw(0, line.size() - 1);

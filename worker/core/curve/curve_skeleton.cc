@@ -37,6 +37,9 @@ namespace {
 // A tip that the ridge reaches lies no farther from it than half its limb's width and so many spacings.
 constexpr double kNearTip = 2;
 
+// Spacings: what is thinner tells nothing by how far it leads out.
+constexpr double kLeastThickness = 3;
+
 // Which vertices of the ridge are the ends of limbs, and where the tips of these are, frame coordinates.
 struct LimbEnds {
   std::vector<char> is_end;
@@ -317,7 +320,7 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   std::vector<Vec3> places = positions(ridge);
   lines = sheet_lines(ridge, ends.is_end, options.context);
   const std::vector<double> thickness = thickness_along(surface, lines, places, balls);
-  lines = pruned_lines(lines, places, thickness, options.context);
+  lines = pruned_lines(lines, ridge, thickness, kLeastThickness * lattice.spacing, options.context);
   lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
   CurveSkeleton curve;
   curve.same_to = ends.least_reach;

@@ -3,17 +3,21 @@
 #include <span>
 
 #include "core/base/execution_context.h"
-#include "core/base/vec3.h"
+#include "core/contour/sheet_mesh.h"
 #include "core/curve/sheet_lines.h"
 
 namespace affskel::core {
 
-/// Leaves spurs out of lines, which end less than kSpur radii outside the ball about a place of what they hang on.
-/// @param places, ball per vertex of the sheet that the lines are of.
+/// Leaves spurs out of lines, which end less than kSpur radii outside the ball about a place of what they hang on, and less
+/// than kSlender times as far as they are thick there: a rod on a great ball is a limb.  One that
+/// leads through the place of the greatest E of its piece is none: the solid's middle lies on it.
+/// @param sheet that the lines are of.
+/// @param ball per vertex of it.
+/// @param least_thickness what is thinner, noise makes.
 /// @throws CoreError kCancelled when the context asks to stop.
-SheetLines pruned_lines(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball,
-                        ExecutionContext* context = nullptr);
+SheetLines pruned_lines(const SheetLines& lines, const SheetMesh& sheet, std::span<const double> ball,
+                        double least_thickness, ExecutionContext* context = nullptr);
 
-inline constexpr double kSpur = 0.6;
+inline constexpr double kSpur = 0.6, kSlender = 2;
 
 }  // namespace affskel::core

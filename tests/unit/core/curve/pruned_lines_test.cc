@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "core/curve/drawn_lines.h"
@@ -14,11 +15,17 @@ struct Pruned : DrawnLines {
   std::uint32_t first = add({0, 0, 0}, 1), middle = go(first, {0.5, 0, 0}, 10, 1);
   std::uint32_t last = go(middle, {0.5, 0, 0}, 10, 1);
 
-  SheetLines run() const {
+  // @param greatest where E is.
+  SheetLines run(std::uint32_t greatest = 0) const {
     SheetLines lines;
-    for (std::uint32_t v = 0; v < places.size(); ++v) lines.vertices.push_back(v);
+    SheetMesh sheet;
+    for (std::uint32_t v = 0; v < places.size(); ++v) {
+      lines.vertices.push_back(v);
+      sheet.vertices.emplace_back().position = places[v];
+      sheet.vertices.back().erosion = v == greatest ? 2 : 1;
+    }
     lines.segments = segments;
-    return pruned_lines(lines, places, ball);
+    return pruned_lines(lines, sheet, ball, 0.1);
   }
 };
 
@@ -37,6 +44,26 @@ TEST(PrunedLines, DropsASpurAndKeepsALimb) {
     lines.go(lines.middle, {0, 0.5, 0}, steps, 0.3);
     EXPECT_EQ(lines.run().segments.size(), is_limb ? trunk + 4 : trunk);
   }
+}
+
+// Where the trunk is ten times as thick as the rod: by its radii the rod ends a quarter of one outside.
+TEST(PrunedLines, KeepsARodOnAThickTrunk) {
+  for (const double thick : {0.1, 0.5}) {
+    Pruned lines;
+    std::fill(lines.ball.begin(), lines.ball.end(), 2);
+    const std::size_t trunk = lines.segments.size();
+    const std::uint32_t wall = lines.go(lines.middle, {0, 0.5, 0}, 3, 1);
+    lines.go(wall, {0, 0.5, 0}, 2, thick);
+    EXPECT_EQ(lines.run().segments.size(), thick < 0.2 ? lines.segments.size() : trunk);
+  }
+}
+
+// A jar's handles meet low in its belly, which does not reach far beyond their joint.
+TEST(PrunedLines, KeepsWhatLeadsThroughTheMiddleOfTheSolid) {
+  Pruned lines;
+  const std::uint32_t end = lines.go(lines.middle, {0, 0.5, 0}, 2, 1);
+  EXPECT_EQ(lines.run(end - 1).segments.size(), lines.segments.size());
+  EXPECT_EQ(lines.run(lines.middle).segments.size(), lines.segments.size() - 2);
 }
 
 // Noise parts hands from arms, and the arm then ends beside the hand.
