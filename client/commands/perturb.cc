@@ -33,10 +33,10 @@ struct PerturbOptions {
 // "0.5%" or "0.005"
 double fraction_of(const std::string& text) {
   const std::optional<double> share = parse_share(text);
-  if (!share || !(*share > 0)) {
+  if (!share || *share < 0) {
     throw ClientError(
         ExitCode::kUsage,
-        "--noise: expected a share of the box diagonal > 0 as in 0.5% or 0.005, not '" + text + "'");
+        "--noise: expected a share of the box diagonal >= 0 as in 0.5% or 0.005, not '" + text + "'");
   }
   return *share;
 }

@@ -367,8 +367,6 @@ TEST_F(FileCommandsTest, PerturbRefusesWhatIsNoNoise) {
   for (const std::vector<std::string>& extra :
        std::vector<std::vector<std::string>>{{},
                                              {"--noise", "-1%"},
-                                             {"--noise", "0"},
-                                             {"--noise", "0%"},
                                              {"--noise", "x"},
                                              {"--noise", "%"},
                                              {"--sigma", "-1"},
