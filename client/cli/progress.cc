@@ -49,9 +49,8 @@ std::string left_text(const v1::Job& job) {
 std::string to_the_right(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, text.size()), ' ') + text;
 }
-std::string to_the_left(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
+std::string to_the_left(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, text.size()), ' ');
 }
 
 std::string count_text(const v1::Job& job) {

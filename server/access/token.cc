@@ -21,6 +21,12 @@ constexpr std::size_t kTokenBytes = 32;
 constexpr const char* kColumns =
     "SELECT id, owner, role, created_ms, expires_ms, revoked_ms, last_used_ms FROM tokens ";
 
+std::string selection(std::string_view rest) {
+  std::string sql = kColumns;
+  sql += rest;
+  return sql;
+}
+
 TokenRow read_row(const Statement& row) {
   Columns columns(row);
   TokenRow token;
@@ -82,7 +88,7 @@ std::int64_t add_token(Database& db, const std::string& token, const std::string
 }
 
 std::vector<TokenRow> list_tokens(Database& db) {
-  static const std::string sql = std::string(kColumns) + "ORDER BY id";
+  static const std::string sql = selection("ORDER BY id");
   Statement row = db.query(sql.c_str());
   std::vector<TokenRow> tokens;
   while (row.step()) tokens.push_back(read_row(row));
@@ -90,7 +96,7 @@ std::vector<TokenRow> list_tokens(Database& db) {
 }
 
 std::optional<TokenRow> find_token(Database& db, std::string_view token) {
-  static const std::string sql = std::string(kColumns) + "WHERE sha256 = ?";
+  static const std::string sql = selection("WHERE sha256 = ?");
   Statement row = db.query(sql.c_str(), wire::sha256_hex(token));
   if (!row.step()) return std::nullopt;
   return read_row(row);

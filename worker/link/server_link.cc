@@ -85,7 +85,8 @@ void ServerLink::with_retries(const char* what, Call call, const std::stop_token
     const grpc::Status status = call(context);
     note_answer(status);
     if (status.ok()) return;
-    const std::string message = std::string(what) + ": " + status.error_message();
+    std::string message = what;
+    message.append(": ").append(status.error_message());
     const RetryPolicy::Decision decision = policy.after(
         status.error_code(), std::chrono::duration_cast<RetryPolicy::Duration>(Clock::now() - begun),
         channel_->GetState(false) == GRPC_CHANNEL_READY);
