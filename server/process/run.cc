@@ -37,7 +37,7 @@ namespace affskel::server {
 namespace {
 
 // Between looks at workers that are due and at idleness; signals are noticed at once.
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kGlance{100};
 
 // Workers finish the direction in hand and report; one that needs longer loses at most that.
 constexpr std::chrono::milliseconds kWorkerGrace{5000};
@@ -133,7 +133,7 @@ void serve(const Options& options, const DataDir& data_dir, const Signals& signa
     leave_if_lost(data_dir, supervisor);
     leave_if_database_lost(server, supervisor);
     supervisor.tick();
-    if (signals.count() == 0) signals.wait(kTick);
+    if (signals.count() == 0) signals.wait(kGlance);
     if (signals.count() > 0) {
       spdlog::info(base::logfmt("stopping", {{"signal", signals.number()}}));
       return;
