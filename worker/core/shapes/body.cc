@@ -43,6 +43,14 @@ Mesh fine_half(double triangles) {
   return positive_x_half(mesh, 0.15 * spacing);
 }
 
+constexpr double kFewestFine = 45000;
+
+/// Smaller bodies are all reduced from it: a quarter of the time that one takes is saved for the next.
+const Mesh& usual_fine_half() {
+  static const Mesh half = fine_half(kFewestFine);
+  return half;
+}
+
 /// Takes a reduced body to its height.  The vertices of a coarse mesh stand out of the surface they stand
 /// for (that keeps the volume): those near the ground are moved onto it first, so that the soles stay flat;
 /// the crown is let in by a height that the whole body shares.
@@ -61,10 +69,12 @@ void scale_to_height(double height, Mesh& mesh) {
 
 Mesh make_body(const MakeBodyOptions& options) {
   check(options);
-  double fine = std::max(45000.0, 1.1 * options.triangles);
+  double fine = std::max(kFewestFine, 1.1 * options.triangles);
   constexpr int kAttempts = 8;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    Mesh mesh = with_mirror_image(collapse_edges(fine_half(fine), options.triangles / 2));
+    const Mesh half =
+        collapse_edges(fine == kFewestFine ? usual_fine_half() : fine_half(fine), options.triangles / 2);
+    Mesh mesh = with_mirror_image(half);
     scale_to_height(options.height, mesh);
     if (mesh.triangles.size() == options.triangles && self_intersections(mesh, {.max_pairs = 1}).empty()) {
       return mesh;
