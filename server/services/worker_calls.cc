@@ -58,6 +58,7 @@ void ReportCall::begin(const v1::ReportErosionHeader& header) {
   with_lease(room(), registry_, header.token(), [&] {
     const Store::BlockLease lease = store_.block_lease(header.token());
     job_ = lease.job;
+    field_ = lease.field;
     if (lease.kind == v1::TASK_KIND_REFINE) {
       refined_.emplace(lease.bounds);
     } else {
@@ -99,7 +100,7 @@ void ReportCall::merge() {
     batch_->sort();
     store_.report_part(header_->token(), *batch_);
     if (!header_->bounds_for().empty()) {
-      bounds_.pass_on(job_, header_->bounds_for(), batch_->records());
+      bounds_.pass_on(field_, header_->bounds_for(), batch_->records());
     }
   }
   batch_->clear();
@@ -126,8 +127,8 @@ bool ReportCall::finish() {
     const std::uint32_t room = header_->bounds_bytes() == 0
                                    ? wire::kUsualBoundsBytes
                                    : std::min(header_->bounds_bytes(), wire::kMaxBoundsBytes);
-    bounds_.exchange(job_, header_->bounds_for(), batch_->records(), room, response_);
-    if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(job_);
+    bounds_.exchange(field_, header_->bounds_for(), batch_->records(), room, response_);
+    if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(field_);
   }
   return response_.cancelled() || header_->block_done();
 }

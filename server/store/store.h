@@ -158,6 +158,7 @@ class Store final : public TokenSource {
 
   struct BlockLease {
     std::string job;
+    std::string field;  ///< its name, see v1::Lease
     v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
     std::int64_t directions = 0;  ///< K
     RefinedBounds bounds;

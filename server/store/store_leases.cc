@@ -113,10 +113,7 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
   lease.set_kind(task.kind);
   *lease.mutable_job() = job_message(tx.db, task.job_id);
   const JobRow job = get_job(tx.db, task.job_id);
-  lease.set_field(
-      database_id(tx.db) + "/" + std::to_string(job.erosion_id) + "." +
-      std::to_string(
-          tx.db.integer("SELECT revision FROM erosions WHERE id = ?", job.erosion_id).value_or(0)));
+  lease.set_field(field_name(tx.db, job.erosion_id));
   lease.set_lease_ms(static_cast<std::uint32_t>(tx.options.lease_ms));
   lease.set_report_interval_ms(static_cast<std::uint32_t>(tx.options.report_interval_ms));
   lease.set_round(static_cast<std::uint32_t>(task.round));

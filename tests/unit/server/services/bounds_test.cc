@@ -1,0 +1,73 @@
+// What workers on one field learn from each other's reports, and what they must not.
+#include "service_fixture.h"
+
+namespace affskel::server {
+namespace {
+
+constexpr std::uint32_t kBoundPoints = 10;
+
+class BoundsTest : public ServiceTest {
+ protected:
+  void SetUp() override {
+    job_ = submit();
+    const PrepareResult result = prepare_result(poll(0).lease().token(), kBoundPoints, 64);
+    ASSERT_TRUE(send_result(*worker_, result.header, result.data).ok());
+  }
+
+  v1::Lease block_of(const std::string& worker) {
+    v1::Lease lease = poll(0, worker).lease();
+    EXPECT_EQ(lease.kind(), v1::TASK_KIND_ERODE);
+    return lease;
+  }
+
+  /// Reports one value of E at all points, of none when it is 0, and tells how many bounds the answer has.
+  int bounds_after(const v1::Lease& lease, const std::string& bounds_for, double erosion, bool done = false) {
+    grpc::ClientContext context;
+    v1::ReportResponse response;
+    const auto writer = worker_->ReportErosion(&context, &response);
+    v1::ReportErosionRequest message;
+    v1::ReportErosionHeader& header = *message.mutable_header();
+    header.set_token(lease.token());
+    header.set_bounds_for(bounds_for);
+    header.set_block_done(done);
+    if (done) *header.mutable_positions_done() = lease.positions();
+    writer->Write(message);
+    for (std::uint32_t point = 0; erosion > 0 && point < kBoundPoints; ++point) {
+      v1::FieldRecords& records = *message.mutable_records();
+      records.add_point(point);
+      records.add_direction(0);
+      records.add_erosion(erosion);
+      records.add_area(1);
+    }
+    if (erosion > 0) writer->Write(message);
+    writer->WritesDone();
+    const grpc::Status status = writer->Finish();
+    EXPECT_TRUE(status.ok()) << status.error_message();
+    int points = 0;
+    for (const v1::ErosionBounds& bounds : response.bounds()) points += bounds.step_size();
+    return points;
+  }
+
+  std::string job_;
+};
+
+// What was taken out of the field would rule out what is true, and nobody would compute it again.
+TEST_F(BoundsTest, OfADistrustedWorkerNobodyHears) {
+  const v1::Lease lie = block_of("liar"), block = block_of("honest");
+  EXPECT_EQ(bounds_after(block, "honest", 0), 0);
+  EXPECT_EQ(bounds_after(lie, "liar", 0.01), 0);
+  grpc::ClientContext context;
+  v1::ResumeJobRequest request;
+  request.set_job(job_);
+  request.set_distrust("liar");
+  v1::Job resumed;
+  const grpc::Status status = client_->ResumeJob(&context, request, &resumed);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const v1::Lease again = block_of("honest"), other = block_of("another");
+  EXPECT_EQ(bounds_after(again, "honest", 0), 0);
+  EXPECT_EQ(bounds_after(other, "another", 2), 0);
+  EXPECT_EQ(bounds_after(again, "honest", 0), static_cast<int>(kBoundPoints)) << "those of now are told";
+}
+
+}  // namespace
+}  // namespace affskel::server
