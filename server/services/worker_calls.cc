@@ -98,8 +98,8 @@ void ReportCall::take(const v1::ReportErosionRequest& message) {
 void ReportCall::merge() {
   if (!batch_->records().empty()) {
     batch_->sort();
-    store_.report_part(header_->token(), *batch_);
-    if (!header_->bounds_for().empty()) {
+    const bool merged = store_.report_part(header_->token(), *batch_);
+    if (merged && !header_->bounds_for().empty()) {
       bounds_.pass_on(field_, header_->bounds_for(), batch_->records());
     }
   }
@@ -122,12 +122,15 @@ bool ReportCall::finish() {
     return response_.cancelled() || header_->block_done();
   }
   batch_->sort();
-  response_ = store_.report(*header_, *batch_);
+  Store::Reported reported = store_.report(*header_, *batch_);
+  response_ = std::move(reported.response);
   if (!header_->bounds_for().empty()) {
     const std::uint32_t room = header_->bounds_bytes() == 0
                                    ? wire::kUsualBoundsBytes
                                    : std::min(header_->bounds_bytes(), wire::kMaxBoundsBytes);
-    bounds_.exchange(field_, header_->bounds_for(), batch_->records(), room, response_);
+    static const std::vector<wire::PointRecord> kNone;
+    bounds_.exchange(field_, header_->bounds_for(), reported.merged ? batch_->records() : kNone, room,
+                     response_);
     if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(field_);
   }
   return response_.cancelled() || header_->block_done();

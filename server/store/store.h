@@ -167,10 +167,16 @@ class Store final : public TokenSource {
   BlockLease block_lease(const std::string& token);
 
   v1::ReportResponse renew(const std::string& token);
-  v1::ReportResponse report(const v1::ReportErosionHeader& header, const RecordBatch& records);
+  struct Reported {
+    v1::ReportResponse response;
+    /// The records are in the field, as the worker's.  Not those of a report that is repeated after its block was
+    /// finished: nobody may hear of what is kept nowhere.
+    bool merged = false;
+  };
+  Reported report(const v1::ReportErosionHeader& header, const RecordBatch& records);
   /// Merges a part of a report that is still arriving, and renews the lease.  What a record says is true
-  /// whatever becomes of the rest; only report() calls positions done.
-  void report_part(const std::string& token, const RecordBatch& records);
+  /// whatever becomes of the rest; only report() calls positions done.  Returns whether it was merged.
+  bool report_part(const std::string& token, const RecordBatch& records);
   /// The same of a REFINE task: what it calls done is stored with its values, see store/refinement.h.
   v1::ReportResponse report_refined(const v1::ReportErosionHeader& header, const RefinedBatch& batch);
   v1::ReportResponse complete(const v1::CompleteTaskHeader& header, std::string_view data);

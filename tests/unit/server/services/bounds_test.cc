@@ -69,5 +69,15 @@ TEST_F(BoundsTest, OfADistrustedWorkerNobodyHears) {
   EXPECT_EQ(bounds_after(again, "honest", 0), static_cast<int>(kBoundPoints)) << "those of now are told";
 }
 
+// A report is repeated when its answer was lost; what it says the second time is stored nowhere, and of nobody.
+TEST_F(BoundsTest, OfARepeatedLastReportNobodyHears) {
+  const v1::Lease ending = block_of("ending"), block = block_of("other");
+  EXPECT_EQ(bounds_after(block, "other", 0), 0);
+  EXPECT_EQ(bounds_after(ending, "ending", 2, true), 0);
+  EXPECT_EQ(bounds_after(block, "other", 3), static_cast<int>(kBoundPoints));
+  EXPECT_EQ(bounds_after(ending, "ending", 0.01, true), static_cast<int>(kBoundPoints)) << "it hears itself";
+  EXPECT_EQ(bounds_after(block, "other", 0), 0);
+}
+
 }  // namespace
 }  // namespace affskel::server
