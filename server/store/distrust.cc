@@ -56,7 +56,7 @@ void undo(Database& db, std::int64_t erosion_id, const std::vector<Range>& given
   for (const Range& range : kept) add_done_range(db, erosion_id, range);
 }
 
-/// Its leases on other jobs, too; the tasks go to others.
+/// Its leases on other jobs end, too; the tasks go to others.
 void bar(Tx& tx, const Giver& giver) {
   tx.db.run(
       "INSERT INTO distrusted (worker, host, since_ms) VALUES (?, ?, ?) ON CONFLICT (worker) DO NOTHING",
@@ -71,6 +71,10 @@ void bar(Tx& tx, const Giver& giver) {
     release_task(tx, task);
     settle_job(tx, task.job_id);
   }
+  // Nor does it come back to a lease that is late, or repeat the report of a block that it has finished.
+  tx.db.run(
+      "UPDATE tasks SET token = NULL, late_token = NULL WHERE worker = ? AND state IN ('pending', 'done')",
+      giver.worker);
 }
 
 }  // namespace
