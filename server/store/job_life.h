@@ -13,8 +13,8 @@ void end_stage(Tx& tx, const std::string& job_id);
 /// Fails an active job.
 void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error);
 
-/// Moves a job on as far as it can go without a worker: next stage, done, cancelled.  Called after every
-/// change to its tasks.
+/// Moves a job on as far as it can go without a worker: next stage, done, cancelled; failed, where what is stored of it
+/// is damaged.  Called after every change to its tasks.
 void settle_job(Tx& tx, const std::string& job_id);
 
 /// Marks the pending blocks as done of which nothing is left.
