@@ -102,7 +102,7 @@ bool finish_derive(Tx& tx, const JobRow& job) {
 
 /// Moves a job on through its stages.  True when it is done.
 bool go_through_stages(Tx& tx, JobRow& job) {
-  // That may write the whole field, for which a full disk has no room: see settle_finished_blocks().
+  // That may write the whole field, for which a full disk has no room: see settle_waiting_jobs().
   if (job.stage == v1::JOB_STAGE_ERODE && tx.room && !has_blocks_left(tx.db, job)) finish_erosion(tx, job);
   if (job.stage == v1::JOB_STAGE_REFINE && tx.room && !has_blocks_left(tx.db, job)) go_on_refining(tx, job);
   return job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job);
@@ -172,12 +172,14 @@ void finish_whole_blocks(Tx& tx, const std::string& job_id) {
       job_id);
 }
 
-void settle_finished_blocks(Tx& tx) {
+void settle_waiting_jobs(Tx& tx) {
   std::vector<std::string> jobs;
   {
     Statement row = tx.db.query(
-        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND stage IN ('erode', 'refine')"
-        " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = j.stage AND state <> 'done')");
+        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND (stage IN ('erode', 'refine')"
+        " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = j.stage AND state <> 'done')"
+        " OR cancel_requested = 1 AND NOT EXISTS"
+        " (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased' AND on_request = 0))");
     while (row.step()) jobs.push_back(row.text(0));
   }
   for (const std::string& job : jobs) settle_job(tx, job);

@@ -20,7 +20,8 @@ void settle_job(Tx& tx, const std::string& job_id);
 /// Marks the pending blocks as done of which nothing is left.
 void finish_whole_blocks(Tx& tx, const std::string& job_id);
 
-/// Moves on the jobs whose last block ended when there was no room for their fields.
-void settle_finished_blocks(Tx& tx);
+/// Moves on the jobs that no worker will move: whose last block ended when there was no room for their fields, or that are
+/// to be cancelled and lost their leases otherwise than by their workers.
+void settle_waiting_jobs(Tx& tx);
 
 }  // namespace affskel::server

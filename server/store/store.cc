@@ -78,7 +78,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
   write([this](Tx& tx) {
     recognise_file(tx, file_identity(file_));
     add_new_kinds(tx.db);
-    settle_finished_blocks(tx);
+    settle_waiting_jobs(tx);
     settle_turns(tx);
     tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1");
     renew_all(tx);
