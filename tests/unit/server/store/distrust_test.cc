@@ -45,5 +45,18 @@ TEST_F(DistrustTest, EndsWhatMayBeRepeatedOfOtherJobs) {
   EXPECT_STORE_ERROR(store_->renew(block.token()), kFenced);
 }
 
+TEST_F(DistrustTest, EndsJobsOfTheFieldThatAreToBeCancelled) {
+  const v1::Job job = job_with_lie();
+  finish_block(lease());
+  derive();
+  v1::SubmitJobHeader header = submit_header("OFF lie", "of the same field");
+  header.mutable_skeleton()->set_threshold(3);
+  const std::string other = store_->submit(header, "OFF lie").job.id();
+  ASSERT_EQ(lease("deriving").job().id(), other);
+  ASSERT_EQ(store_->cancel(other).state(), v1::JOB_STATE_RUNNING);
+  EXPECT_EQ(store_->resume_without(job.id(), "liar").stage(), v1::JOB_STAGE_ERODE) << "it keeps what is left";
+  EXPECT_EQ(store_->job(other).state(), v1::JOB_STATE_CANCELLED);
+}
+
 }  // namespace
 }  // namespace affskel::server
