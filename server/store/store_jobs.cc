@@ -11,6 +11,7 @@
 #include "store/retention.h"
 #include "store/store_impl.h"
 #include "store/task_rows.h"
+#include "store/verification.h"
 #include "wire/words.h"
 
 namespace affskel::server {
@@ -80,6 +81,7 @@ v1::Job Store::cancel(const JobRef& job_ref) {
     const std::int64_t requests = tx.db.run(
         "DELETE FROM tasks WHERE job_id = ? AND on_request = 1 AND state IN ('pending', 'leased')", job.id);
     if (requests > 0) {
+      cancel_samples(tx, job.id);
       tx.changes.jobs.insert(job.id);
       add_event(
           tx, job.id,
