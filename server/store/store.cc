@@ -11,6 +11,7 @@
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/task_leases.h"
+#include "store/task_rows.h"
 #include "store/turn.h"
 #include "wire/artifact_kinds.h"
 #include "wire/identity.h"
@@ -51,12 +52,15 @@ void add_new_kinds(Database& db) {
   }
 }
 
-/// Their workers could not report while no server was there.
+/// Their workers could not report while no server was there: that is no pause of theirs.  The clock may have been put
+/// back meanwhile, too; what lies ahead of it would never come.
 void renew_all(Tx& tx) {
-  tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(ifnull(stalled_ms, 0), ?1 + ?3)"
-      " WHERE state = 'leased'",
-      tx.lease_ms, tx.options.lease_ms, tx.options.stall_ms);
+  for (const TaskRow& task : leased_tasks(tx.db)) {
+    tx.db.run(
+        "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = ?1 + ?3, reported_ms = ?1,"
+        " granted_ms = min(granted_ms, ?1) WHERE id = ?4",
+        tx.lease_ms, tx.options.lease_ms, patience_ms(tx, task), task.id);
+  }
 }
 
 }  // namespace

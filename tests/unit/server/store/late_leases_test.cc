@@ -59,5 +59,39 @@ TEST_F(LateLeaseTest, PatienceForProgressDoesNotBeginAnewWithEachPause) {
   EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 1U);
 }
 
+// The longest pause between two reports tells how long a stall may be: what was none must not count.
+TEST_F(LateLeaseTest, NeitherSilenceNorDowntimeIsAPauseBetweenReports) {
+  const v1::Job job = submit();
+  prepare(4, 16);
+  const v1::Lease block = lease();
+  clock_.advance(300);
+  report(block, 0, 1);
+  clock_.advance(3'600'000);
+  store_->expire_leases();
+  report(block, 1, 2);
+  clock_.advance(200);
+  report(block, 2, 3);
+  clock_.advance(3'600'000);
+  open();
+  clock_.advance(100);
+  report(block, 3, 4);
+  EXPECT_EQ(store_->job(job.id()).counters().longest_report_gap_ms(), 300U);
+}
+
+TEST_F(LateLeaseTest, AClockThatWasPutBackHidesNoStall) {
+  submit();
+  prepare(4, 16);
+  const v1::Lease block = lease();
+  clock_.advance(-86'400'000);
+  open();
+  for (std::int64_t ms = 0; ms <= options_.stall_ms; ms += options_.lease_ms) {
+    ASSERT_NO_THROW(store_->renew(block.token()));
+    clock_.advance(options_.lease_ms);
+  }
+  EXPECT_EQ(store_->expire_leases(), 1);
+  EXPECT_STORE_ERROR(store_->renew(block.token()), kFenced);
+  finish_block(lease());
+}
+
 }  // namespace
 }  // namespace affskel::server
