@@ -77,6 +77,7 @@ std::vector<BoundsExchange::Message> BoundsExchange::pack(
 bool BoundsExchange::enter(const std::string& field, const std::string& worker) {
   if (seen_.size() >= options_.fields && !seen_.contains(field)) seen_.clear();
   auto& workers = seen_[field];
+  if (workers.size() >= options_.workers && !workers.contains(worker)) workers.clear();
   workers.try_emplace(worker, forgotten_ + entries_.size());
   return workers.size() > 1;
 }

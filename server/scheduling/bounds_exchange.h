@@ -18,6 +18,7 @@ struct BoundsExchangeOptions {
   std::size_t kept_bytes = std::size_t{64} << 20;     ///< of all fields; what is oldest is forgotten
   std::size_t message_points = std::size_t{1} << 16;  ///< per v1::ErosionBounds
   std::size_t fields = 256;                           ///< whose workers are remembered
+  std::size_t workers = 1024;                         ///< that are remembered of one field
 };
 
 /// What the workers on one field learn from each other's reports: without it each leaves out only what its own

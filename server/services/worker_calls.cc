@@ -54,11 +54,11 @@ void ReportCall::on_message(v1::ReportErosionRequest& message) {
 
 void ReportCall::begin(const v1::ReportErosionHeader& header) {
   header_ = header;
-  if (header.bounds_for().size() > kMaxWorkerIdBytes) refuse("a worker's id has at most 64 bytes");
   with_lease(room(), registry_, header.token(), [&] {
     const Store::BlockLease lease = store_.block_lease(header.token());
     job_ = lease.job;
     field_ = lease.field;
+    worker_ = lease.worker;  // what the header calls it anybody could make up
     if (lease.kind == v1::TASK_KIND_REFINE) {
       refined_.emplace(lease.bounds);
     } else {
@@ -100,7 +100,7 @@ void ReportCall::merge() {
     batch_->sort();
     const bool merged = store_.report_part(header_->token(), *batch_);
     if (merged && !header_->bounds_for().empty()) {
-      bounds_.pass_on(field_, header_->bounds_for(), batch_->records());
+      bounds_.pass_on(field_, worker_, batch_->records());
     }
   }
   batch_->clear();
@@ -129,8 +129,7 @@ bool ReportCall::finish() {
                                    ? wire::kUsualBoundsBytes
                                    : std::min(header_->bounds_bytes(), wire::kMaxBoundsBytes);
     static const std::vector<wire::PointRecord> kNone;
-    bounds_.exchange(field_, header_->bounds_for(), reported.merged ? batch_->records() : kNone, room,
-                     response_);
+    bounds_.exchange(field_, worker_, reported.merged ? batch_->records() : kNone, room, response_);
     if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(field_);
   }
   return response_.cancelled() || header_->block_done();

@@ -52,7 +52,7 @@ class ReportCall final : public Receiving<v1::ReportErosionRequest> {
   UploadBudget::Share held_;
   std::optional<v1::ReportErosionHeader> header_;
   std::string job_;
-  std::string field_;
+  std::string field_, worker_;
   std::optional<RecordBatch> batch_;     // of ERODE
   std::optional<RefinedBatch> refined_;  // of REFINE
   std::uint64_t received_ = 0;           // records

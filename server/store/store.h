@@ -158,7 +158,8 @@ class Store final : public TokenSource {
 
   struct BlockLease {
     std::string job;
-    std::string field;  ///< its name, see v1::Lease
+    std::string field;   ///< its name, see v1::Lease
+    std::string worker;  ///< that holds it
     v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
     std::int64_t directions = 0;  ///< K
     RefinedBounds bounds;

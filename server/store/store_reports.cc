@@ -138,8 +138,8 @@ Store::BlockLease Store::block_lease(const std::string& token) {
     const TaskRow task = task_of_token(db, token);
     if (task.kind != v1::TASK_KIND_REFINE) of_erosion(task);
     const JobRow job = get_job(db, task.job_id);
-    return BlockLease{job.id, field_name(db, job.erosion_id), task.kind, job.directions,
-                      refined_bounds(db, job.erosion_id)};
+    return BlockLease{job.id,         field_name(db, job.erosion_id),    task.worker, task.kind,
+                      job.directions, refined_bounds(db, job.erosion_id)};
   });
 }
 

@@ -160,5 +160,14 @@ TEST(BoundsExchange, RemembersTheWorkersOfSoManyFields) {
   EXPECT_TRUE(told(exchange, "one", "a", {record(1, 1.0)}).empty());
 }
 
+TEST(BoundsExchange, RemembersSoManyWorkersOfAField) {
+  BoundsExchangeOptions options;
+  options.workers = 2;
+  BoundsExchange exchange(options);
+  for (const char* worker : {"a", "b", "c"}) exchange.join("field", worker);
+  EXPECT_TRUE(told(exchange, "field", "c", {record(1, 1.0)}).empty());
+  EXPECT_EQ(exchange.kept(), 0U) << "the others are forgotten, and it is alone";
+}
+
 }  // namespace
 }  // namespace affskel::server

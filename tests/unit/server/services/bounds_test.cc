@@ -79,5 +79,14 @@ TEST_F(BoundsTest, OfARepeatedLastReportNobodyHears) {
   EXPECT_EQ(bounds_after(block, "other", 0), 0);
 }
 
+// Else who makes up names is remembered under each, and told what it has said itself.
+TEST_F(BoundsTest, WhoReportsIsTakenFromTheLease) {
+  const v1::Lease block = block_of("worker"), other = block_of("other");
+  EXPECT_EQ(bounds_after(block, "worker", 0), 0);
+  EXPECT_EQ(bounds_after(block, "made up", 2), 0);
+  EXPECT_EQ(bounds_after(block, "worker", 0), 0) << "its own";
+  EXPECT_EQ(bounds_after(other, std::string(1000, 'x'), 0), static_cast<int>(kBoundPoints));
+}
+
 }  // namespace
 }  // namespace affskel::server
