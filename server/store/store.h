@@ -235,7 +235,7 @@ class Store final : public TokenSource {
     Changes changes;           ///< of its last run
     bool room = true;          ///< it may write more than bookkeeping
     bool alone = false;        ///< it is not made with others
-    bool undone = false;       ///< another one of its transaction failed
+    bool undone = false;       ///< the database failed for its transaction
     std::exception_ptr error;  ///< why it cannot be made
     bool ended = false;        ///< under turn_mutex_
     std::condition_variable_any woken;
@@ -249,6 +249,7 @@ class Store final : public TokenSource {
   std::size_t next_together() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(turn_mutex_);
   void commit_together(std::span<Change* const> together);
   void commit_all(std::span<Change* const> together);
+  void run_change(Change& change, bool among_others) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   template <typename Body>
   auto write_field(const std::string& token, Body&& body);
   template <typename Body>
