@@ -27,8 +27,15 @@ void put_state(Tx& tx, const char* key, const std::string& value) {
       key, value);
 }
 
-/// A copy of the database, put back, has forgotten what came after it.  A worker that goes on with a lease or
-/// a field from before would take for known what is not: all leases end, and fields are fetched anew.
+/// A copy of the database, put back, has forgotten what came after it.  A worker that goes on with a field from before
+/// would take for known what is not.  Nothing here tells for certain whether that happened (a copy may be written into
+/// the file that was there, or a whole volume set back), so that every start gives fields new names: workers fetch them
+/// anew.
+void rename_fields(Tx& tx) {
+  put_state(tx, "database", wire::random_id());
+}
+
+/// Where it is certain, leases end, too: what their workers reported since is missing, and they would not do it again.
 void recognise_file(Tx& tx, const std::string& identity) {
   Statement row = tx.db.query("SELECT value FROM server_state WHERE key = 'file'");
   const bool known = row.step();
@@ -38,7 +45,6 @@ void recognise_file(Tx& tx, const std::string& identity) {
     tx.changes.log.push_back(base::logfmt("database_restored"));
   }
   put_state(tx, "file", identity);
-  put_state(tx, "database", wire::random_id());
 }
 
 /// What this program has beyond those that the database knows.
@@ -80,6 +86,7 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
   if (disk_full_) live_on_reserve();
   let_pages_go(db_, options_.free_bytes(base::directory_of(file_)));
   write([this](Tx& tx) {
+    rename_fields(tx);
     recognise_file(tx, file_identity(file_));
     add_new_kinds(tx.db);
     settle_waiting_jobs(tx);
