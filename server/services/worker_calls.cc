@@ -201,4 +201,14 @@ StreamCall::After InputCall::send_input(CallLimit::Place place) {
   return send(std::move(place), std::move(reader), nullptr);
 }
 
+void InputCall::on_taken() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - renewed_ < std::chrono::milliseconds(store_.options().report_interval_ms)) return;
+  renewed_ = now;
+  with_lease(room(), registry_, request_.token(), [&] {
+    store_.keep_lease(request_.token());
+    return false;
+  });
+}
+
 }  // namespace affskel::server

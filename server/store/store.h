@@ -168,6 +168,8 @@ class Store final : public TokenSource {
   BlockLease block_lease(const std::string& token);
 
   v1::ReportResponse renew(const std::string& token);
+  /// Renews a lease that is there still; that it has ended or is to end, its worker hears otherwise.
+  void keep_lease(const std::string& token);
   struct Reported {
     v1::ReportResponse response;
     /// The records are in the field, as the worker's.  Not those of a report that is repeated after its block was

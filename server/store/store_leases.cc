@@ -158,7 +158,7 @@ bool is_cancelled(const TaskRow& task, const JobRow& job) {
   return !task.on_request && (!job.active() || job.cancel_requested);
 }
 
-/// Renews a lease of a worker that asks for more.  That it has ended, or its job was cancelled, the worker
+/// Renews a lease of a worker that asks for more, or takes an input.  That it has ended, or its job was cancelled, the worker
 /// hears when it speaks of that lease.
 void renew_held(Tx& tx, const std::string& token) {
   std::optional<TaskRow> task = find_task_of_token(tx.db, token);
@@ -277,6 +277,13 @@ v1::ReportResponse Store::renew(const std::string& token) {
     }
     renew_lease(tx, task);
     return reply(false);
+  });
+}
+
+void Store::keep_lease(const std::string& token) {
+  write([&](Tx& tx) {
+    renew_held(tx, token);
+    return true;
   });
 }
 
