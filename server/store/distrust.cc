@@ -111,4 +111,11 @@ bool is_distrusted(Database& db, const std::string& worker) {
   return db.integer("SELECT 1 FROM distrusted WHERE worker = ?", worker).has_value();
 }
 
+std::set<std::string> distrusted_workers(Database& db) {
+  Statement row = db.query("SELECT worker FROM distrusted");
+  std::set<std::string> workers;
+  while (row.step()) workers.insert(row.text(0));
+  return workers;
+}
+
 }  // namespace affskel::server

@@ -140,6 +140,14 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
     asio::post(strand_, [self = shared_from_this()] { self->close(); });
   }
 
+  /// Its peer is late.
+  void give_up() {
+    asio::post(strand_, [self = shared_from_this()] {
+      self->refuse(self->server_ == nullptr ? "it has said nothing"
+                                            : "it takes nothing of what is sent to it");
+    });
+  }
+
   std::uint64_t answered() const override { return answered_; }
 
   bool is_late(Clock::time_point now) const { return now.time_since_epoch().count() >= deadline_; }
@@ -369,7 +377,7 @@ void Relay::tick() {
       if (auto alive = connection.lock()) late.push_back(std::move(alive));
     }
   }
-  for (const auto& connection : late) connection->hang_up();
+  for (const auto& connection : late) connection->give_up();
 }
 
 void Relay::stop() {

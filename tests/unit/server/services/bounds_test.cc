@@ -10,7 +10,7 @@ class BoundsTest : public ServiceTest {
  protected:
   void SetUp() override {
     job_ = submit();
-    const PrepareResult result = prepare_result(poll(0).lease().token(), kBoundPoints, 64);
+    const PrepareResult result = prepare_result(poll(0, "honest").lease().token(), kBoundPoints, 64);
     ASSERT_TRUE(send_result(*worker_, result.header, result.data).ok());
   }
 
@@ -48,6 +48,37 @@ class BoundsTest : public ServiceTest {
     return points;
   }
 
+  void distrust(const std::string& worker) {
+    grpc::ClientContext context;
+    v1::ResumeJobRequest request;
+    request.set_job(job_);
+    request.set_distrust(worker);
+    v1::Job resumed;
+    const grpc::Status status = client_->ResumeJob(&context, request, &resumed);
+    EXPECT_TRUE(status.ok()) << status.error_message();
+  }
+
+  /// A job of higher priority, all of it by one worker.
+  std::string done_by(const std::string& worker) {
+    v1::SubmitJobHeader header = submit_header("OFF other", "other");
+    header.set_priority(9);
+    v1::SubmitJobResponse submitted;
+    EXPECT_TRUE(submit_mesh(*client_, header, "OFF other", &submitted).ok());
+    for (v1::Lease lease = poll(0, worker).lease(); lease.job().id() == submitted.job().id();
+         lease = poll(0, worker).lease()) {
+      v1::ReportResponse response;
+      if (lease.kind() == v1::TASK_KIND_PREPARE) {
+        const PrepareResult result = prepare_result(lease.token(), kBoundPoints, 16);
+        EXPECT_TRUE(send_result(*worker_, result.header, result.data).ok());
+      } else if (lease.kind() == v1::TASK_KIND_ERODE) {
+        EXPECT_TRUE(send_report(*worker_, lease, 0, 16, true, &response).ok());
+      } else {
+        EXPECT_TRUE(send_result(*worker_, derive_header(lease.token(), "skeleton", 3), "skeleton").ok());
+      }
+    }
+    return submitted.job().id();
+  }
+
   std::string job_;
 };
 
@@ -56,17 +87,29 @@ TEST_F(BoundsTest, OfADistrustedWorkerNobodyHears) {
   const v1::Lease lie = block_of("liar"), block = block_of("honest");
   EXPECT_EQ(bounds_after(block, "honest", 0), 0);
   EXPECT_EQ(bounds_after(lie, "liar", 0.01), 0);
-  grpc::ClientContext context;
-  v1::ResumeJobRequest request;
-  request.set_job(job_);
-  request.set_distrust("liar");
-  v1::Job resumed;
-  const grpc::Status status = client_->ResumeJob(&context, request, &resumed);
-  ASSERT_TRUE(status.ok()) << status.error_message();
+  distrust("liar");
   const v1::Lease again = block_of("honest"), other = block_of("another");
   EXPECT_EQ(bounds_after(again, "honest", 0), 0);
   EXPECT_EQ(bounds_after(other, "another", 2), 0);
   EXPECT_EQ(bounds_after(again, "honest", 0), static_cast<int>(kBoundPoints)) << "those of now are told";
+}
+
+// It asks for work still, and gets none.
+TEST_F(BoundsTest, AVerificationDoesNotCountOnADistrustedWorker) {
+  const v1::Lease lie = block_of("liar");
+  EXPECT_EQ(bounds_after(lie, "liar", 2, true), 0);
+  const std::string other = done_by("honest");
+  const auto reason = [&] {
+    grpc::ClientContext context;
+    v1::VerifyJobRequest request;
+    request.set_job(other);
+    v1::Verification verification;
+    EXPECT_TRUE(client_->VerifyJob(&context, request, &verification).ok());
+    return verification.waiting_reason();
+  };
+  EXPECT_EQ(reason(), "");
+  distrust("liar");
+  EXPECT_NE(reason().find("needs a worker that did not give"), std::string::npos) << reason();
 }
 
 // A report is repeated when its answer was lost; what it says the second time is stored nowhere, and of nobody.

@@ -58,5 +58,16 @@ TEST_F(DistrustTest, EndsJobsOfTheFieldThatAreToBeCancelled) {
   EXPECT_EQ(store_->job(other).state(), v1::JOB_STATE_CANCELLED);
 }
 
+// What a liar gave has to go whatever else its owner has queued.
+TEST_F(DistrustTest, NoQuotaStandsAgainstIt) {
+  const v1::Job job = job_with_lie();
+  ASSERT_EQ(store_->cancel(job.id()).state(), v1::JOB_STATE_CANCELLED);
+  submit("OFF 2", "queued");
+  options_.policy.everyone.quota.queued_jobs = 1;
+  open();
+  EXPECT_STORE_ERROR(store_->resume(job.id()), kLimit);
+  EXPECT_EQ(store_->resume_without(job.id(), "liar").state(), v1::JOB_STATE_QUEUED);
+}
+
 }  // namespace
 }  // namespace affskel::server

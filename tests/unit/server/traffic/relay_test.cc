@@ -152,6 +152,8 @@ TEST(RelayTest, WhoSaysNothingIsHungUpOn) {
   Relayed one(relay);
   auto ended = std::async([&] { one.client->wait_for_end(); });
   while (ended.wait_for(milliseconds(1)) != std::future_status::ready) relay.tick();
+  one.wait_for_end();
+  EXPECT_EQ(one.why, "it has said nothing") << "for the log";
 }
 
 TEST(RelayTest, WhoTakesNothingIsHungUpOn) {
@@ -168,6 +170,7 @@ TEST(RelayTest, WhoTakesNothingIsHungUpOn) {
     server.offer(piece);
     relay.tick();
   }
+  EXPECT_EQ(one.why, "it takes nothing of what is sent to it") << "for the log";
 }
 
 /// Of one thread, so that what comes later is passed on later.
