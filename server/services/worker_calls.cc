@@ -156,7 +156,7 @@ void ResultCall::on_message(v1::CompleteTaskRequest& message) {
   if (!message.has_header()) refuse_without_header();
   header_ = message.header();
   if (header_->bytes() > wire::kMaxResultBytes) {
-    throw StoreError(StoreError::Code::kLimit, "a result has at most 2^31 - 1 bytes");
+    refuse("a result has at most 2^31 - 1 bytes");  // the same one again would be as large
   }
   data_.emplace(room().upload_bytes, header_->bytes());
 }

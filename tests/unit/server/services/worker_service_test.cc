@@ -108,6 +108,15 @@ TEST_F(WorkerServiceTest, ReportWithMissingRecordsIsRefused) {
   EXPECT_TRUE(send_report(*worker_, lease, 0, 1, false, &response).ok());
 }
 
+// "Try again" would be no answer.
+TEST_F(WorkerServiceTest, AResultThatIsTooLargeIsRefusedForGood) {
+  submit();
+  PrepareResult result = prepare_result(poll(0).lease().token(), 10, 40);
+  result.header.set_bytes(std::uint64_t{1} << 31);
+  EXPECT_EQ(send_result(*worker_, result.header, result.data).error_code(),
+            grpc::StatusCode::INVALID_ARGUMENT);
+}
+
 TEST_F(WorkerServiceTest, ReportInManyMessages) {
   const v1::Lease lease = block(20000, 16);
   v1::ReportResponse response;

@@ -155,6 +155,13 @@ TEST_F(VerifyTest, AnotherTaskIsNotTakenForThatOfASample) {
   EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
 }
 
+// Its worker could not hand it in, and would compute it again and again.
+TEST_F(VerifyTest, WhatNoResultCanHoldIsRefusedBeforehand) {
+  const v1::Job job = done_by_two();
+  Database(database(), Database::Mode::kReadWrite).execute("UPDATE erosions SET points = 107374183");
+  EXPECT_STORE_ERROR(store_->verify(job.id(), 0, 0), kLimit);
+}
+
 TEST_F(VerifyTest, OnlyDoneJobsAreVerified) {
   const v1::Job job = submit();
   EXPECT_STORE_ERROR(store_->verify(job.id(), 0, 0), kPrecondition);
