@@ -99,6 +99,8 @@ grpc::Status full_status_of(const std::exception_ptr& error) {
     return ended.status;
   } catch (const StoreError& e) {
     if (e.code() == StoreError::Code::kUnusable) log_internal(e);
+    if (e.code() == StoreError::Code::kDamaged)
+      spdlog::error(base::logfmt("damaged", {{"message", e.what()}}));
     return {code_of(e.code()), e.what()};
   } catch (const SqliteError& e) {
     // The store logs a full disk once in a while; the calls that fail for it do not.

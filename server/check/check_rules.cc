@@ -104,6 +104,10 @@ constexpr const char* kJobs[] = {
 
     ("SELECT 'job ' || id, 'is ' || state || ', but still to be cancelled' FROM jobs"
      " WHERE cancel_requested = 1 AND state NOT IN ('queued', 'running')"),
+
+    "SELECT 'job ' || j.id, 'is to be cancelled, and waits for no worker' FROM jobs j"
+    " WHERE j.cancel_requested = 1 AND j.state IN ('queued', 'running') AND NOT EXISTS"
+    " (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased' AND on_request = 0)",
 };
 
 // Tasks against jobs and what is done: a job without the task that it waits for would wait for ever.

@@ -17,37 +17,37 @@ std::size_t memory_of(const v1::ErosionBounds& message) {
 
 }  // namespace
 
-void BoundsExchange::join(const std::string& job, const std::string& worker) {
+void BoundsExchange::join(const std::string& field, const std::string& worker) {
   const base::MutexLock lock(mutex_);
-  enter(job, worker);
+  enter(field, worker);
 }
 
-void BoundsExchange::exchange(const std::string& job, const std::string& worker,
+void BoundsExchange::exchange(const std::string& field, const std::string& worker,
                               const std::vector<wire::PointRecord>& records, std::size_t room,
                               v1::ReportResponse& response) {
   std::vector<Message> theirs;
   {
     const base::MutexLock lock(mutex_);
-    if (!enter(job, worker)) return;
-    theirs = collect(job, worker, room);
+    if (!enter(field, worker)) return;
+    theirs = collect(field, worker, room);
   }
   const std::vector<Message> ours = pack(records);
   {
     const base::MutexLock lock(mutex_);
-    keep(job, worker, ours);
+    keep(field, worker, ours);
   }
   for (const Message& message : theirs) *response.add_bounds() = *message;
 }
 
-void BoundsExchange::pass_on(const std::string& job, const std::string& worker,
+void BoundsExchange::pass_on(const std::string& field, const std::string& worker,
                              const std::vector<wire::PointRecord>& records) {
   {
     const base::MutexLock lock(mutex_);
-    if (!enter(job, worker)) return;
+    if (!enter(field, worker)) return;
   }
   const std::vector<Message> ours = pack(records);
   const base::MutexLock lock(mutex_);
-  keep(job, worker, ours);
+  keep(field, worker, ours);
 }
 
 std::vector<BoundsExchange::Message> BoundsExchange::pack(
@@ -73,23 +73,24 @@ std::vector<BoundsExchange::Message> BoundsExchange::pack(
   return messages;
 }
 
-/// Notes the worker of a job; whether it has company.
-bool BoundsExchange::enter(const std::string& job, const std::string& worker) {
-  if (seen_.size() >= options_.jobs && !seen_.contains(job)) seen_.clear();
-  auto& workers = seen_[job];
+/// Notes the worker of a field; whether it has company.
+bool BoundsExchange::enter(const std::string& field, const std::string& worker) {
+  if (seen_.size() >= options_.fields && !seen_.contains(field)) seen_.clear();
+  auto& workers = seen_[field];
+  if (workers.size() >= options_.workers && !workers.contains(worker)) workers.clear();
   workers.try_emplace(worker, forgotten_ + entries_.size());
   return workers.size() > 1;
 }
 
-std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& job,
+std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& field,
                                                              const std::string& worker, std::size_t room) {
-  std::uint64_t& next = seen_[job][worker];
+  std::uint64_t& next = seen_[field][worker];
   next = std::max(next, forgotten_);
   std::vector<Message> messages;
   std::size_t bytes = 0;
   for (; next < forgotten_ + entries_.size(); ++next) {
     const Entry& entry = entries_[next - forgotten_];
-    if (entry.message == nullptr || entry.job != job || entry.worker == worker) continue;
+    if (entry.message == nullptr || entry.field != field || entry.worker == worker) continue;
     bytes += entry.wire_bytes;
     if (bytes > room && !messages.empty()) break;
     messages.push_back(entry.message);
@@ -97,10 +98,10 @@ std::vector<BoundsExchange::Message> BoundsExchange::collect(const std::string& 
   return messages;
 }
 
-void BoundsExchange::keep(const std::string& job, const std::string& worker,
+void BoundsExchange::keep(const std::string& field, const std::string& worker,
                           const std::vector<Message>& messages) {
   for (const Message& message : messages) {
-    entries_.push_back({job, worker, message, memory_of(*message), message->ByteSizeLong()});
+    entries_.push_back({field, worker, message, memory_of(*message), message->ByteSizeLong()});
     bytes_ += entries_.back().bytes;
   }
   while (bytes_ > options_.kept_bytes) drop_first();
@@ -113,11 +114,11 @@ void BoundsExchange::drop_first() {
   ++forgotten_;
 }
 
-void BoundsExchange::forget(const std::string& job) {
+void BoundsExchange::forget(const std::string& field) {
   const base::MutexLock lock(mutex_);
-  seen_.erase(job);
+  seen_.erase(field);
   for (Entry& entry : entries_) {
-    if (entry.message == nullptr || entry.job != job) continue;
+    if (entry.message == nullptr || entry.field != field) continue;
     bytes_ -= entry.bytes;
     entry = {};
     ++dead_;
@@ -126,12 +127,12 @@ void BoundsExchange::forget(const std::string& job) {
   if (dead_ > entries_.size() / 2) close_ranks();
 }
 
-/// Removes the forgotten entries, which stand between those of a job that goes on; the others get new
+/// Removes the forgotten entries, which stand between those of a field that goes on; the others get new
 /// numbers.
 void BoundsExchange::close_ranks() {
   std::vector<std::uint64_t> before{0};  // entries that stay, before each
   for (const Entry& entry : entries_) before.push_back(before.back() + (entry.message != nullptr ? 1 : 0));
-  for (auto& [job, workers] : seen_) {
+  for (auto& [field, workers] : seen_) {
     for (auto& [worker, next] : workers) {
       const std::uint64_t at = std::max(next, forgotten_) - forgotten_;
       next = forgotten_ + before[static_cast<std::size_t>(at)];

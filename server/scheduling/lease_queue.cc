@@ -241,7 +241,7 @@ void LeaseQueue::end_poll(const PollPtr& poll, const grpc::Status& status) {
 void LeaseQueue::hand_over(const PollPtr& poll, v1::Lease lease) {
   remove(poll);
   registry_.granted(poll->request().worker(), lease);
-  if (lease.kind() == v1::TASK_KIND_ERODE) bounds_.join(lease.job().id(), poll->request().worker().id());
+  if (lease.kind() == v1::TASK_KIND_ERODE) bounds_.join(lease.field(), poll->request().worker().id());
   const std::string token = lease.token();
   if (poll->answer(grpc::Status::OK, std::move(lease))) return;
   registry_.ended(token);

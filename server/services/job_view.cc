@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "database/errors.h"
@@ -133,7 +135,10 @@ void JobView::add_reasons(std::vector<v1::Job>& jobs) const {
 
 void JobView::add_reason(v1::Verification& verification) const {
   std::vector<v1::WorkerInfo> workers = registry_.list();
-  std::erase_if(workers, [](const v1::WorkerInfo& worker) { return worker.silent(); });
+  const std::set<std::string> distrusted = store_.distrusted_workers();
+  std::erase_if(workers, [&](const v1::WorkerInfo& worker) {
+    return worker.silent() || distrusted.contains(worker.id());
+  });
   if (!verification.finished() && workers.empty()) {
     return verification.set_waiting_reason("no worker is connected");
   }

@@ -28,6 +28,7 @@ void Sending::OnWriteDone(bool ok) {
 }
 
 StreamCall::After Sending::next() {
+  on_taken();
   if (sent_ == piece_.size()) {
     piece_ = reader_->next();
     sent_ = 0;

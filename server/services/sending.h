@@ -28,6 +28,8 @@ class Sending : public StreamCall, public grpc::ServerWriteReactor<v1::FetchArti
   After send(CallLimit::Place place, std::unique_ptr<BlobReader> reader, const v1::Job* job);
 
  private:
+  /// The peer has taken a message.
+  virtual void on_taken() {}
   /// gRPC is done with the call.
   virtual void on_ended() {}
 

@@ -54,10 +54,11 @@ void ReportCall::on_message(v1::ReportErosionRequest& message) {
 
 void ReportCall::begin(const v1::ReportErosionHeader& header) {
   header_ = header;
-  if (header.bounds_for().size() > kMaxWorkerIdBytes) refuse("a worker's id has at most 64 bytes");
   with_lease(room(), registry_, header.token(), [&] {
     const Store::BlockLease lease = store_.block_lease(header.token());
     job_ = lease.job;
+    field_ = lease.field;
+    worker_ = lease.worker;  // what the header calls it anybody could make up
     if (lease.kind == v1::TASK_KIND_REFINE) {
       refined_.emplace(lease.bounds);
     } else {
@@ -97,9 +98,9 @@ void ReportCall::take(const v1::ReportErosionRequest& message) {
 void ReportCall::merge() {
   if (!batch_->records().empty()) {
     batch_->sort();
-    store_.report_part(header_->token(), *batch_);
-    if (!header_->bounds_for().empty()) {
-      bounds_.pass_on(job_, header_->bounds_for(), batch_->records());
+    const bool merged = store_.report_part(header_->token(), *batch_);
+    if (merged && !header_->bounds_for().empty()) {
+      bounds_.pass_on(field_, worker_, batch_->records());
     }
   }
   batch_->clear();
@@ -121,13 +122,15 @@ bool ReportCall::finish() {
     return response_.cancelled() || header_->block_done();
   }
   batch_->sort();
-  response_ = store_.report(*header_, *batch_);
+  Store::Reported reported = store_.report(*header_, *batch_);
+  response_ = std::move(reported.response);
   if (!header_->bounds_for().empty()) {
     const std::uint32_t room = header_->bounds_bytes() == 0
                                    ? wire::kUsualBoundsBytes
                                    : std::min(header_->bounds_bytes(), wire::kMaxBoundsBytes);
-    bounds_.exchange(job_, header_->bounds_for(), batch_->records(), room, response_);
-    if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(job_);
+    static const std::vector<wire::PointRecord> kNone;
+    bounds_.exchange(field_, worker_, reported.merged ? batch_->records() : kNone, room, response_);
+    if (header_->block_done() && store_.job(job_).stage() != v1::JOB_STAGE_ERODE) bounds_.forget(field_);
   }
   return response_.cancelled() || header_->block_done();
 }
@@ -153,7 +156,7 @@ void ResultCall::on_message(v1::CompleteTaskRequest& message) {
   if (!message.has_header()) refuse_without_header();
   header_ = message.header();
   if (header_->bytes() > wire::kMaxResultBytes) {
-    throw StoreError(StoreError::Code::kLimit, "a result has at most 2^31 - 1 bytes");
+    refuse("a result has at most 2^31 - 1 bytes");  // the same one again would be as large
   }
   data_.emplace(room().upload_bytes, header_->bytes());
 }
@@ -196,6 +199,16 @@ StreamCall::After InputCall::send_input(CallLimit::Place place) {
     return false;
   });
   return send(std::move(place), std::move(reader), nullptr);
+}
+
+void InputCall::on_taken() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - renewed_ < std::chrono::milliseconds(store_.options().report_interval_ms)) return;
+  renewed_ = now;
+  with_lease(room(), registry_, request_.token(), [&] {
+    store_.keep_lease(request_.token());
+    return false;
+  });
 }
 
 }  // namespace affskel::server

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ class ReportCall final : public Receiving<v1::ReportErosionRequest> {
   UploadBudget::Share held_;
   std::optional<v1::ReportErosionHeader> header_;
   std::string job_;
+  std::string field_, worker_;
   std::optional<RecordBatch> batch_;     // of ERODE
   std::optional<RefinedBatch> refined_;  // of REFINE
   std::uint64_t received_ = 0;           // records
@@ -74,7 +76,8 @@ class ResultCall final : public Receiving<v1::CompleteTaskRequest> {
   std::optional<Upload> data_;
 };
 
-/// FetchInput: sends an input of a leased task.
+/// FetchInput: sends an input of a leased task, and keeps the lease as long as the worker takes it: over a slow line its
+/// own renewals wait behind the input.
 class InputCall final : public Sending {
  public:
   InputCall(CallRoom& room, grpc::CallbackServerContext& context, Store& store, WorkerRegistry& registry,
@@ -83,10 +86,12 @@ class InputCall final : public Sending {
  private:
   After open() override;
   After send_input(CallLimit::Place place);
+  void on_taken() override;
 
   Store& store_;
   WorkerRegistry& registry_;
   const v1::FetchInputRequest request_;
+  std::chrono::steady_clock::time_point renewed_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace affskel::server

@@ -56,7 +56,7 @@ void undo(Database& db, std::int64_t erosion_id, const std::vector<Range>& given
   for (const Range& range : kept) add_done_range(db, erosion_id, range);
 }
 
-/// Its leases on other jobs, too; the tasks go to others.
+/// Its leases on other jobs end, too; the tasks go to others.
 void bar(Tx& tx, const Giver& giver) {
   tx.db.run(
       "INSERT INTO distrusted (worker, host, since_ms) VALUES (?, ?, ?) ON CONFLICT (worker) DO NOTHING",
@@ -71,6 +71,10 @@ void bar(Tx& tx, const Giver& giver) {
     release_task(tx, task);
     settle_job(tx, task.job_id);
   }
+  // Nor does it come back to a lease that is late, or repeat the report of a block that it has finished.
+  tx.db.run(
+      "UPDATE tasks SET token = NULL, late_token = NULL WHERE worker = ? AND state IN ('pending', 'done')",
+      giver.worker);
 }
 
 }  // namespace
@@ -105,6 +109,13 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who) {
 
 bool is_distrusted(Database& db, const std::string& worker) {
   return db.integer("SELECT 1 FROM distrusted WHERE worker = ?", worker).has_value();
+}
+
+std::set<std::string> distrusted_workers(Database& db) {
+  Statement row = db.query("SELECT worker FROM distrusted");
+  std::set<std::string> workers;
+  while (row.step()) workers.insert(row.text(0));
+  return workers;
 }
 
 }  // namespace affskel::server

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "store/rows.h"
@@ -21,5 +22,7 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who);
 
 /// Whether it is to get no lease.
 bool is_distrusted(Database& db, const std::string& worker);
+/// All of them.
+std::set<std::string> distrusted_workers(Database& db);
 
 }  // namespace affskel::server

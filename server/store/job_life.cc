@@ -33,22 +33,6 @@ std::string progress_text(const JobRow& job) {
   return std::to_string(job.directions_done) + " of " + base::counted(job.directions, "direction");
 }
 
-/// False when `body` finds stored rows damaged: the job has failed, and what was merged so far stays, for it is true.
-template <typename Body>
-bool sound_or_fail(Tx& tx, const JobRow& job, Body&& body) {
-  v1::JobError error;
-  error.set_code(kDamagedCode);
-  try {
-    body();
-    return true;
-  } catch (const StoreError& damaged) {
-    if (damaged.code() != StoreError::Code::kDamaged) throw;
-    error.set_message(damaged.what());
-  }
-  fail_job(tx, job.id, error);
-  return false;
-}
-
 void finish_field(Tx& tx, JobRow& job) {
   tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
   end_stage(tx, job.id);
@@ -57,14 +41,14 @@ void finish_field(Tx& tx, JobRow& job) {
   job.stage = v1::JOB_STAGE_DERIVE;
 }
 
-/// All blocks of directions done: the set's field is complete.  False when it is damaged.
-bool finish_erosion(Tx& tx, JobRow& job) {
+/// All blocks of directions done: the set's field is complete.
+void finish_erosion(Tx& tx, JobRow& job) {
   if (job.directions_done != job.directions) {
-    throw StoreError(StoreError::Code::kUnusable, "job " + job.id + ": all blocks are done, but only " +
-                                                      std::to_string(job.directions_done) + " of " +
-                                                      std::to_string(job.directions) + " directions");
+    throw StoreError(StoreError::Code::kDamaged, "job " + job.id + ": all blocks are done, but only " +
+                                                     std::to_string(job.directions_done) + " of " +
+                                                     std::to_string(job.directions) + " directions");
   }
-  if (!sound_or_fail(tx, job, [&] { settle_field(tx.db, job.erosion_id, job.points); })) return false;
+  settle_field(tx.db, job.erosion_id, job.points);
   if (job.refines) {
     end_stage(tx, job.id);
     tx.db.run("UPDATE jobs SET stage = 'refine' WHERE id = ?", job.id);
@@ -74,17 +58,13 @@ bool finish_erosion(Tx& tx, JobRow& job) {
     finish_field(tx, job);
   }
   add_event(tx, job.id, {.event = "eroded", .message = progress_text(job)});
-  return true;
 }
 
-/// All blocks of a round done: the next one, or the field is complete.  False when it is damaged.
-bool go_on_refining(Tx& tx, JobRow& job) {
-  bool ended = false;
-  if (!sound_or_fail(tx, job, [&] { ended = finish_round(tx, job); })) return false;
-  if (!ended) return true;
+/// All blocks of a round done: the next one, or the field is complete.
+void go_on_refining(Tx& tx, JobRow& job) {
+  if (!finish_round(tx, job)) return;
   finish_field(tx, job);
   add_event(tx, job.id, {.event = "refined", .message = "in " + base::counted(job.round + 1, "round")});
-  return true;
 }
 
 bool has_blocks_left(Database& db, const JobRow& job) {
@@ -120,6 +100,29 @@ bool finish_derive(Tx& tx, const JobRow& job) {
   return true;
 }
 
+/// Moves a job on through its stages.  True when it is done.
+bool go_through_stages(Tx& tx, JobRow& job) {
+  // That may write the whole field, for which a full disk has no room: see settle_waiting_jobs().
+  if (job.stage == v1::JOB_STAGE_ERODE && tx.room && !has_blocks_left(tx.db, job)) finish_erosion(tx, job);
+  if (job.stage == v1::JOB_STAGE_REFINE && tx.room && !has_blocks_left(tx.db, job)) go_on_refining(tx, job);
+  return job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job);
+}
+
+/// The same; a job of which stored rows turn out to be damaged has come to its end, too: it has failed, for who settles
+/// it is often about others.  What was merged so far stays, for it is true.
+bool go_on_or_fail(Tx& tx, JobRow& job) {
+  v1::JobError error;
+  error.set_code(kDamagedCode);
+  try {
+    return go_through_stages(tx, job);
+  } catch (const StoreError& damaged) {
+    if (damaged.code() != StoreError::Code::kDamaged) throw;
+    error.set_message(damaged.what());
+  }
+  fail_job(tx, job.id, error);
+  return true;
+}
+
 }  // namespace
 
 void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error) {
@@ -150,13 +153,7 @@ void settle_job(Tx& tx, const std::string& job_id) {
   tx.changes.jobs.insert(job_id);
   JobRow job = get_job(tx.db, job_id);
   if (!job.active()) return;
-  // That may write the whole field, for which a full disk has no room: see settle_finished_blocks().
-  if (job.stage == v1::JOB_STAGE_ERODE && tx.room && !has_blocks_left(tx.db, job) && !finish_erosion(tx, job))
-    return;
-  if (job.stage == v1::JOB_STAGE_REFINE && tx.room && !has_blocks_left(tx.db, job) &&
-      !go_on_refining(tx, job))
-    return;
-  if (job.stage == v1::JOB_STAGE_DERIVE && finish_derive(tx, job)) return;
+  if (go_on_or_fail(tx, job)) return;
   if (!job.cancel_requested) return;
   if (tx.db.integer("SELECT 1 FROM tasks WHERE job_id = ? AND state = 'leased' AND on_request = 0 LIMIT 1",
                     job_id)) {
@@ -175,12 +172,14 @@ void finish_whole_blocks(Tx& tx, const std::string& job_id) {
       job_id);
 }
 
-void settle_finished_blocks(Tx& tx) {
+void settle_waiting_jobs(Tx& tx) {
   std::vector<std::string> jobs;
   {
     Statement row = tx.db.query(
-        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND stage IN ('erode', 'refine')"
-        " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = j.stage AND state <> 'done')");
+        "SELECT id FROM jobs j WHERE state IN ('queued', 'running') AND (stage IN ('erode', 'refine')"
+        " AND NOT EXISTS (SELECT 1 FROM tasks WHERE job_id = j.id AND kind = j.stage AND state <> 'done')"
+        " OR cancel_requested = 1 AND NOT EXISTS"
+        " (SELECT 1 FROM tasks WHERE job_id = j.id AND state = 'leased' AND on_request = 0))");
     while (row.step()) jobs.push_back(row.text(0));
   }
   for (const std::string& job : jobs) settle_job(tx, job);

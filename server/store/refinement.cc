@@ -80,9 +80,9 @@ void begin_refinement(Tx& tx, const JobRow& job) {
 
 bool finish_round(Tx& tx, const JobRow& job) {
   if (job.refined_points != job.points) {
-    throw StoreError(StoreError::Code::kUnusable, "job " + job.id + ": all blocks are done, but only " +
-                                                      std::to_string(job.refined_points) + " of " +
-                                                      std::to_string(job.points) + " points");
+    throw StoreError(StoreError::Code::kDamaged, "job " + job.id + ": all blocks are done, but only " +
+                                                     std::to_string(job.refined_points) + " of " +
+                                                     std::to_string(job.points) + " points");
   }
   const bool first = job.round == 0;
   const std::vector<std::uint32_t> changed = first ? std::vector<std::uint32_t>() : changed_in(tx.db, job);

@@ -20,8 +20,8 @@ bool core_is_current(Database& db, std::int64_t erosion_id) {
 
 std::vector<std::string> jobs_of(Database& db, std::int64_t erosion_id) {
   Statement row = db.query(
-      "SELECT id FROM jobs WHERE erosion_id = ? ORDER BY state IN ('queued', 'running') DESC,"
-      " state = 'done' DESC, seq",
+      "SELECT id FROM jobs WHERE erosion_id = ? ORDER BY state IN ('queued', 'running') AND NOT"
+      " cancel_requested DESC, state = 'done' DESC, seq",
       erosion_id);
   std::vector<std::string> jobs;
   while (row.step()) jobs.push_back(row.text(0));
@@ -62,7 +62,8 @@ void restart_erosion(Tx& tx, std::int64_t erosion_id, std::int64_t directions) {
   tx.db.run("DELETE FROM artifacts WHERE erosion_id = ? AND kind NOT IN ('lattice', 'directions')",
             erosion_id);
   bool taken = !core_is_current(tx.db, erosion_id);
-  for (const std::string& job : jobs_of(tx.db, erosion_id)) {
+  const std::vector<std::string> jobs = jobs_of(tx.db, erosion_id);
+  for (const std::string& job : jobs) {
     tx.db.run("DELETE FROM tasks WHERE job_id = ?", job);
     if (taken) {
       give_own_erosion(tx, job, erosion_id);
@@ -75,6 +76,8 @@ void restart_erosion(Tx& tx, std::int64_t erosion_id, std::int64_t directions) {
   if (!tx.db.integer("SELECT 1 FROM jobs WHERE erosion_id = ? LIMIT 1", erosion_id)) {
     tx.db.run("UPDATE erosions SET dropped = 1 WHERE id = ?", erosion_id);
   }
+  // What was to be cancelled once its workers knew waits for none any more.
+  for (const std::string& job : jobs) settle_job(tx, job);
 }
 
 void queue_again(Tx& tx, const std::string& job, const char* stage) {

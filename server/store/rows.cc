@@ -286,6 +286,11 @@ std::string database_id(Database& db) {
   return row.step() ? row.text(0) : std::string();
 }
 
+std::string field_name(Database& db, std::int64_t erosion_id) {
+  return database_id(db) + "/" + std::to_string(erosion_id) + "." +
+         std::to_string(db.integer("SELECT revision FROM erosions WHERE id = ?", erosion_id).value_or(0));
+}
+
 std::string current_core_version(Database& db) {
   // Remembered with the version of the programs: after an upgrade the old answer says nothing.
   Statement row = db.query("SELECT value FROM server_state WHERE key = 'core_version/' || ?", wire::kVersion);

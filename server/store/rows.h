@@ -71,8 +71,11 @@ inline constexpr const char* kDamagedCode = "DAMAGED";
 /// when part of it cannot be read.
 v1::Job job_message(Database& db, const std::string& id);
 
-/// Changes when the database is put back from a copy or repaired.
+/// Changes with every start of a server: the database may have been put back from a copy, or repaired.
 std::string database_id(Database& db);
+
+/// What v1::Lease calls the field of an erosion: another name whenever something was taken out of it.
+std::string field_name(Database& db, std::int64_t erosion_id);
 
 /// The core version of the workers of this program's version, "" when none was heard from yet.
 std::string current_core_version(Database& db);

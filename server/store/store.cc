@@ -11,6 +11,7 @@
 #include "store/space.h"
 #include "store/store_impl.h"
 #include "store/task_leases.h"
+#include "store/task_rows.h"
 #include "store/turn.h"
 #include "wire/artifact_kinds.h"
 #include "wire/identity.h"
@@ -26,8 +27,15 @@ void put_state(Tx& tx, const char* key, const std::string& value) {
       key, value);
 }
 
-/// A copy of the database, put back, has forgotten what came after it.  A worker that goes on with a lease or
-/// a field from before would take for known what is not: all leases end, and fields are fetched anew.
+/// A copy of the database, put back, has forgotten what came after it.  A worker that goes on with a field from before
+/// would take for known what is not.  Nothing here tells for certain whether that happened (a copy may be written into
+/// the file that was there, or a whole volume set back), so that every start gives fields new names: workers fetch them
+/// anew.
+void rename_fields(Tx& tx) {
+  put_state(tx, "database", wire::random_id());
+}
+
+/// Where it is certain, leases end, too: what their workers reported since is missing, and they would not do it again.
 void recognise_file(Tx& tx, const std::string& identity) {
   Statement row = tx.db.query("SELECT value FROM server_state WHERE key = 'file'");
   const bool known = row.step();
@@ -37,7 +45,6 @@ void recognise_file(Tx& tx, const std::string& identity) {
     tx.changes.log.push_back(base::logfmt("database_restored"));
   }
   put_state(tx, "file", identity);
-  put_state(tx, "database", wire::random_id());
 }
 
 /// What this program has beyond those that the database knows.
@@ -51,12 +58,15 @@ void add_new_kinds(Database& db) {
   }
 }
 
-/// Their workers could not report while no server was there.
+/// Their workers could not report while no server was there: that is no pause of theirs.  The clock may have been put
+/// back meanwhile, too; what lies ahead of it would never come.
 void renew_all(Tx& tx) {
-  tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(ifnull(stalled_ms, 0), ?1 + ?3)"
-      " WHERE state = 'leased'",
-      tx.lease_ms, tx.options.lease_ms, tx.options.stall_ms);
+  for (const TaskRow& task : leased_tasks(tx.db)) {
+    tx.db.run(
+        "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = ?1 + ?3, reported_ms = ?1,"
+        " granted_ms = min(granted_ms, ?1) WHERE id = ?4",
+        tx.lease_ms, tx.options.lease_ms, patience_ms(tx, task), task.id);
+  }
 }
 
 }  // namespace
@@ -76,9 +86,10 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
   if (disk_full_) live_on_reserve();
   let_pages_go(db_, options_.free_bytes(base::directory_of(file_)));
   write([this](Tx& tx) {
+    rename_fields(tx);
     recognise_file(tx, file_identity(file_));
     add_new_kinds(tx.db);
-    settle_finished_blocks(tx);
+    settle_waiting_jobs(tx);
     settle_turns(tx);
     tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1");
     renew_all(tx);

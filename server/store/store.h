@@ -90,6 +90,8 @@ class Store final : public TokenSource {
   v1::Job resume(const JobRef& job_ref);
   /// The same in any state, without what `worker` gave: see store/distrust.h.
   v1::Job resume_without(const JobRef& job_ref, const std::string& worker);
+  /// Ids of the workers that get no lease any more.
+  std::set<std::string> distrusted_workers();
   /// Begins to have a `share` of the directions computed again, unless that is under way, or tells how far
   /// `verification` is: see store/verification.h.
   v1::Verification verify(const JobRef& job_ref, double share, std::int64_t verification);
@@ -158,6 +160,8 @@ class Store final : public TokenSource {
 
   struct BlockLease {
     std::string job;
+    std::string field;   ///< its name, see v1::Lease
+    std::string worker;  ///< that holds it
     v1::TaskKind kind = v1::TASK_KIND_UNSPECIFIED;
     std::int64_t directions = 0;  ///< K
     RefinedBounds bounds;
@@ -166,10 +170,18 @@ class Store final : public TokenSource {
   BlockLease block_lease(const std::string& token);
 
   v1::ReportResponse renew(const std::string& token);
-  v1::ReportResponse report(const v1::ReportErosionHeader& header, const RecordBatch& records);
+  /// Renews a lease that is there still; that it has ended or is to end, its worker hears otherwise.
+  void keep_lease(const std::string& token);
+  struct Reported {
+    v1::ReportResponse response;
+    /// The records are in the field, as the worker's.  Not those of a report that is repeated after its block was
+    /// finished: nobody may hear of what is kept nowhere.
+    bool merged = false;
+  };
+  Reported report(const v1::ReportErosionHeader& header, const RecordBatch& records);
   /// Merges a part of a report that is still arriving, and renews the lease.  What a record says is true
-  /// whatever becomes of the rest; only report() calls positions done.
-  void report_part(const std::string& token, const RecordBatch& records);
+  /// whatever becomes of the rest; only report() calls positions done.  Returns whether it was merged.
+  bool report_part(const std::string& token, const RecordBatch& records);
   /// The same of a REFINE task: what it calls done is stored with its values, see store/refinement.h.
   v1::ReportResponse report_refined(const v1::ReportErosionHeader& header, const RefinedBatch& batch);
   v1::ReportResponse complete(const v1::CompleteTaskHeader& header, std::string_view data);
@@ -227,7 +239,7 @@ class Store final : public TokenSource {
     Changes changes;           ///< of its last run
     bool room = true;          ///< it may write more than bookkeeping
     bool alone = false;        ///< it is not made with others
-    bool undone = false;       ///< another one of its transaction failed
+    bool undone = false;       ///< the database failed for its transaction
     std::exception_ptr error;  ///< why it cannot be made
     bool ended = false;        ///< under turn_mutex_
     std::condition_variable_any woken;
@@ -241,6 +253,7 @@ class Store final : public TokenSource {
   std::size_t next_together() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(turn_mutex_);
   void commit_together(std::span<Change* const> together);
   void commit_all(std::span<Change* const> together);
+  void run_change(Change& change, bool among_others) ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   template <typename Body>
   auto write_field(const std::string& token, Body&& body);
   template <typename Body>

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "database/errors.h"
 #include "metrics/metrics.h"
 #include "store/store.h"
 
@@ -77,7 +78,25 @@ std::size_t Store::next_together() const {
   return static_cast<std::size_t>(apart - turns_.begin());
 }
 
-/// All of them or none: where one fails, the others are marked to be made alone.
+/// Runs the change.  One that is refused among others is undone alone, and keeps why: else whoever asks for what cannot be
+/// would have theirs made again and again.
+void Store::run_change(Change& change, bool among_others) {
+  change.error = nullptr;
+  change.changes = {};
+  Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), change.changes, change.room};
+  if (!among_others) return change.body(tx);
+  db_.run("SAVEPOINT change");
+  try {
+    change.body(tx);
+  } catch (const StoreError&) {
+    change.error = std::current_exception();
+    change.changes = {};
+    db_.run("ROLLBACK TO change");
+  }
+  db_.run("RELEASE change");
+}
+
+/// All of them or none: where the database fails, all are marked to be made alone.
 void Store::commit_together(std::span<Change* const> together) {
   try {
     commit_all(together);
@@ -99,9 +118,7 @@ void Store::commit_all(std::span<Change* const> together) {
   Transaction transaction(db_);
   for (Change* change : together) {
     change->room = change->room && room;
-    change->changes = {};
-    Tx tx{db_, options_, clock_.wall_ms(), clock_.lease_ms(), change->changes, change->room};
-    change->body(tx);
+    run_change(*change, together.size() > 1);
   }
   db_.claim_pages();
   transaction.commit();

@@ -11,6 +11,7 @@
 #include "store/retention.h"
 #include "store/store_impl.h"
 #include "store/task_rows.h"
+#include "store/verification.h"
 #include "wire/words.h"
 
 namespace affskel::server {
@@ -80,6 +81,7 @@ v1::Job Store::cancel(const JobRef& job_ref) {
     const std::int64_t requests = tx.db.run(
         "DELETE FROM tasks WHERE job_id = ? AND on_request = 1 AND state IN ('pending', 'leased')", job.id);
     if (requests > 0) {
+      cancel_samples(tx, job.id);
       tx.changes.jobs.insert(job.id);
       add_event(
           tx, job.id,
@@ -131,13 +133,13 @@ void forget_memory_needs(Tx& tx, const std::string& job) {
   }
 }
 
-void go_on(Tx& tx, const JobRow& job) {
+void go_on(Tx& tx, const JobRow& job, bool by_administrator = false) {
   if (job.state == v1::JOB_STATE_DONE && job.removed_ms > 0) return compute_again(tx, job);
   if (job.state == v1::JOB_STATE_DONE) {
     throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " is done: nothing to resume");
   }
   if (job.active() && !job.cancel_requested) return;
-  if (!job.active()) require_queue_room(tx.db, tx.options.policy, job.owner);
+  if (!job.active() && !by_administrator) require_queue_room(tx.db, tx.options.policy, job.owner);
   tx.db.run(
       "UPDATE jobs SET state = iif(cancel_requested, state, 'queued'), cancel_requested = 0,"
       " finished_ms = 0, queued_ms = iif(cancel_requested, queued_ms, ?1), stage_ms = iif(cancel_requested, stage_ms, ?1),"
@@ -153,14 +155,19 @@ void go_on(Tx& tx, const JobRow& job) {
 }  // namespace
 
 v1::Job Store::resume(const JobRef& job_ref) {
-  return write_job(job_ref, go_on);
+  return write_job(job_ref, [](Tx& tx, const JobRow& job) { go_on(tx, job); });
 }
 
 v1::Job Store::resume_without(const JobRef& job_ref, const std::string& worker) {
   return write_job(job_ref, [&worker](Tx& tx, const JobRow& job) {
     distrust(tx, job, worker);
-    go_on(tx, get_job(tx.db, job.id));
+    // What a liar gave is taken out however many jobs their owner has queued.
+    go_on(tx, get_job(tx.db, job.id), true);
   });
+}
+
+std::set<std::string> Store::distrusted_workers() {
+  return read([](Database& db) { return affskel::server::distrusted_workers(db); });
 }
 
 std::string Store::remove(const JobRef& job_ref) {

@@ -113,10 +113,7 @@ v1::Lease lease_message(Tx& tx, const TaskRow& task, const std::string& token) {
   lease.set_kind(task.kind);
   *lease.mutable_job() = job_message(tx.db, task.job_id);
   const JobRow job = get_job(tx.db, task.job_id);
-  lease.set_field(
-      database_id(tx.db) + "/" + std::to_string(job.erosion_id) + "." +
-      std::to_string(
-          tx.db.integer("SELECT revision FROM erosions WHERE id = ?", job.erosion_id).value_or(0)));
+  lease.set_field(field_name(tx.db, job.erosion_id));
   lease.set_lease_ms(static_cast<std::uint32_t>(tx.options.lease_ms));
   lease.set_report_interval_ms(static_cast<std::uint32_t>(tx.options.report_interval_ms));
   lease.set_round(static_cast<std::uint32_t>(task.round));
@@ -161,7 +158,7 @@ bool is_cancelled(const TaskRow& task, const JobRow& job) {
   return !task.on_request && (!job.active() || job.cancel_requested);
 }
 
-/// Renews a lease of a worker that asks for more.  That it has ended, or its job was cancelled, the worker
+/// Renews a lease of a worker that asks for more, or takes an input.  That it has ended, or its job was cancelled, the worker
 /// hears when it speaks of that lease.
 void renew_held(Tx& tx, const std::string& token) {
   std::optional<TaskRow> task = find_task_of_token(tx.db, token);
@@ -280,6 +277,13 @@ v1::ReportResponse Store::renew(const std::string& token) {
     }
     renew_lease(tx, task);
     return reply(false);
+  });
+}
+
+void Store::keep_lease(const std::string& token) {
+  write([&](Tx& tx) {
+    renew_held(tx, token);
+    return true;
   });
 }
 

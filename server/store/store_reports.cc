@@ -138,7 +138,8 @@ Store::BlockLease Store::block_lease(const std::string& token) {
     const TaskRow task = task_of_token(db, token);
     if (task.kind != v1::TASK_KIND_REFINE) of_erosion(task);
     const JobRow job = get_job(db, task.job_id);
-    return BlockLease{job.id, task.kind, job.directions, refined_bounds(db, job.erosion_id)};
+    return BlockLease{job.id,         field_name(db, job.erosion_id),    task.worker, task.kind,
+                      job.directions, refined_bounds(db, job.erosion_id)};
   });
 }
 
@@ -157,9 +158,10 @@ auto Store::write_field(const std::string& token, Body&& body) {
   }
 }
 
-v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const RecordBatch& records) {
+Store::Reported Store::report(const v1::ReportErosionHeader& header, const RecordBatch& records) {
   std::exception_ptr refusal;
   JobRow reported;
+  bool merged = false;
   const v1::ReportResponse response = write_field(header.token(), [&](Tx& tx) {
     const TaskRow task = of_erosion(held_task(tx, header.token()));
     const JobRow job = get_job(tx.db, task.job_id);
@@ -173,7 +175,8 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
     const Progress progress = add_positions(tx, job, ranges);
     reported = job;
     reported.directions_done += progress.added;
-    if (takes_records(job, task)) {
+    merged = takes_records(job, task);
+    if (merged) {
       note_given(tx.db, job, {task.worker, task.host}, ranges, records.records());
       merge_records(tx.db, job.erosion_id, job.points, records.records());
     }
@@ -196,7 +199,7 @@ v1::ReportResponse Store::report(const v1::ReportErosionHeader& header, const Re
   if (refusal) std::rethrow_exception(refusal);
   times_left_.add(reported.id, clock_.lease_ms(), static_cast<std::uint64_t>(reported.directions_done),
                   static_cast<std::uint64_t>(reported.directions));
-  return response;
+  return {response, merged};
 }
 
 v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, const RefinedBatch& batch) {
@@ -247,9 +250,9 @@ v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, 
   return response;
 }
 
-void Store::report_part(const std::string& token, const RecordBatch& records) {
+bool Store::report_part(const std::string& token, const RecordBatch& records) {
   std::exception_ptr refusal;
-  write_field(token, [&](Tx& tx) {
+  const bool merged = write_field(token, [&](Tx& tx) {
     const TaskRow task = of_erosion(held_task(tx, token));
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
@@ -258,14 +261,16 @@ void Store::report_part(const std::string& token, const RecordBatch& records) {
       return false;
     }
     tx.require_room();
-    if (takes_records(job, task)) {
+    const bool merges = takes_records(job, task);
+    if (merges) {
       note_given(tx.db, job, {task.worker, task.host}, {}, records.records());
       merge_records(tx.db, job.erosion_id, job.points, records.records());
     }
     if (task.state == "leased") renew_lease(tx, task);
-    return true;
+    return merges;
   });
   if (refusal) std::rethrow_exception(refusal);
+  return merged;
 }
 
 }  // namespace affskel::server

@@ -161,7 +161,7 @@ void Store::make_room(const Changes& undone) {
 /// Jobs that were stuck go on.
 void Store::notify_room() {
   write([](Tx& tx) {
-    settle_finished_blocks(tx);
+    settle_waiting_jobs(tx);
     return true;
   });
   if (listener_ == nullptr) return;

@@ -2,6 +2,8 @@
 #include "store/store_impl.h"
 #include "store/task_leases.h"
 #include "store/verification.h"
+#include "wire/field_record.h"
+#include "wire/limits.h"
 #include "wire/words.h"
 
 namespace affskel::server {
@@ -15,6 +17,15 @@ void require_done(const JobRow& job) {
                    "job " + job.id +
                        (job.removed_ms > 0 ? ": its results were removed" : " is " + wire::word(job.state)) +
                        ", and only the field of a job that is done can be verified");
+}
+
+/// A sample is a field of its own, and a result.
+void require_sample_room(const JobRow& job) {
+  constexpr auto kMostPoints = static_cast<std::int64_t>(wire::kMaxResultBytes / wire::kFieldRecordBytes);
+  if (job.points <= kMostPoints) return;
+  throw StoreError(StoreError::Code::kLimit, "job " + job.id + " has " + std::to_string(job.points) +
+                                                 " points; fields of at most " + std::to_string(kMostPoints) +
+                                                 " can be verified");
 }
 
 }  // namespace
@@ -33,6 +44,7 @@ v1::Verification Store::verify(const JobRef& job_ref, double share, std::int64_t
     job = get_job(db, resolve_job(db, job_ref));
     if (const std::int64_t running = verification_under_way(db, job.id)) return running;
     require_done(job);
+    require_sample_room(job);
     // Reads the whole field: not while all others wait to write.
     samples = choose_samples(db, job, share == 0 ? kUsualShare : share);
     return std::int64_t{0};

@@ -66,13 +66,14 @@ bool finish_if_whole(Tx& tx, const TaskRow& task) {
   return true;
 }
 
-/// Offers the work of a silent worker to all, with its lease left in the row: see held_task().
+/// Offers the work of a silent worker to all, with its lease left in the row: see held_task().  In the place of the
+/// moment at which its patience ends stands what was left of it when the worker was last heard.
 void offer_to_others(Tx& tx, const TaskRow& task) {
   if (finish_if_whole(tx, task)) return;
   tx.db.run(
       "UPDATE tasks SET state = 'pending', late_token = token, token = NULL, deadline_ms = NULL,"
-      " stalled_ms = NULL WHERE id = ?",
-      task.id);
+      " stalled_ms = max(0, stalled_ms - (deadline_ms - ?)) WHERE id = ?",
+      tx.options.lease_ms, task.id);
   tx.changes.jobs.insert(task.job_id);
   tx.changes.work = true;
 }
@@ -113,13 +114,20 @@ TaskRow held_task(Tx& tx, const std::string& token) {
 
 TaskRow resume_if_late(Tx& tx, TaskRow task) {
   if (task.state != "pending") return task;
+  // Nothing was lost; but whoever is late again and again without any progress comes to the end of the patience.
+  const std::int64_t patience =
+      tx.db.integer("SELECT stalled_ms FROM tasks WHERE id = ?", task.id).value_or(patience_ms(tx, task));
   tx.db.run(
       "UPDATE tasks SET state = 'leased', token = late_token, late_token = NULL, deadline_ms = ?,"
-      " stalled_ms = ? WHERE id = ?",
-      tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
+      " stalled_ms = ?, reported_ms = ?, losses = max(0, losses - 1) WHERE id = ?",
+      tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience, tx.lease_ms, task.id);
   task.state = "leased";
-  tx.db.run("UPDATE jobs SET directions_lost = max(0.0, directions_lost - ?) WHERE id = ?",
-            lost_directions(tx, task), task.job_id);
+  task.losses = std::max<std::int64_t>(0, task.losses - 1);
+  tx.db.run(
+      "UPDATE jobs SET leases_lost = max(0, leases_lost - 1),"
+      " directions_lost = max(0.0, directions_lost - ?) WHERE id = ?",
+      lost_directions(tx, task), task.job_id);
+  task.reported_ms = tx.lease_ms;  // its silence is no pause between two reports
   tx.changes.jobs.insert(task.job_id);
   add_event(tx, task.job_id,
             task_event("lease_resumed", task, "its worker is back, and no other had taken it"));
@@ -135,7 +143,9 @@ void finish_task(Tx& tx, const TaskRow& task) {
             task.id);
   tx.changes.jobs.insert(task.job_id);
   add_event(tx, task.job_id, task_event("finished", task));
-  const std::chrono::milliseconds time(task.state == "leased" ? tx.lease_ms - task.granted_ms : 0);
+  // The clock may have been put back since the grant.
+  const std::chrono::milliseconds time(
+      task.state == "leased" ? std::max<std::int64_t>(0, tx.lease_ms - task.granted_ms) : 0);
   tx.changes.counts.push_back(
       [kind = wire::word(task.kind), time](Metrics& metrics) { metrics.task_finished(kind, time); });
 }

@@ -20,6 +20,9 @@ namespace {
 // A task has at most a sixteenth of all directions, as a block has.
 constexpr std::int64_t kParts = 16, kMinPart = 16;
 
+// Task t of sample s.  The number alone may have come to another task since: it is given again.
+#define TASK_OF_SAMPLE "t.id = s.task_id AND t.kind = 'verify' AND t.params_key = CAST(s.id AS TEXT)"
+
 /// For each position with stored values, their number.
 std::unordered_map<std::int64_t, std::int64_t> values_by_position(Database& db, const JobRow& job,
                                                                   const DirectionPositions& positions) {
@@ -182,9 +185,8 @@ std::int64_t verification_under_way(Database& db, const std::string& job) {
   return db
       .integer(
           "SELECT v.id FROM verifications v JOIN samples s ON s.verification_id = v.id JOIN tasks t"
-          " ON t.id = s.task_id WHERE v.job_id = ? AND s.state = 'pending'"
-          " AND t.state IN ('pending', 'leased')"
-          " LIMIT 1",
+          " ON " TASK_OF_SAMPLE
+          " WHERE v.job_id = ? AND s.state = 'pending' AND t.state IN ('pending', 'leased') LIMIT 1",
           job)
       .value_or(0);
 }
@@ -200,8 +202,8 @@ v1::Verification verification_message(Database& db, const std::string& job, std:
   message.set_finished(true);
   Statement row = db.query(
       "SELECT s.id, s.directions, s.state, s.verifier, s.host, s.compared, s.differing, s.message,"
-      " ifnull(t.state, '') FROM samples s LEFT JOIN tasks t ON t.id = s.task_id WHERE s.verification_id = ?"
-      " ORDER BY s.id",
+      " ifnull(t.state, '') FROM samples s LEFT JOIN tasks t ON " TASK_OF_SAMPLE
+      " WHERE s.verification_id = ? ORDER BY s.id",
       verification);
   while (row.step()) {
     Columns columns(row);
@@ -279,6 +281,13 @@ void finish_sample(Tx& tx, const TaskRow& task, const SampleResult& result) {
           ? task_event("verified", task, of + base::counted(result.compared, "value") + " the same")
           : task_event("differs", task,
                        of + base::counted(result.differing, "point") + ", the first: " + result.message));
+}
+
+void cancel_samples(Tx& tx, const std::string& job) {
+  tx.db.run(
+      "UPDATE samples SET state = 'failed', message = 'cancelled' WHERE state = 'pending'"
+      " AND verification_id IN (SELECT id FROM verifications WHERE job_id = ?)",
+      job);
 }
 
 void fail_sample(Tx& tx, const TaskRow& task, const std::string& why) {

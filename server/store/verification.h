@@ -52,6 +52,9 @@ SampleResult compare_sample(Database& db, const TaskRow& task, std::string_view 
 /// Keeps the result, and tells the job's events of it.
 void finish_sample(Tx& tx, const TaskRow& task, const SampleResult& result);
 
+/// The tasks of a job's samples are taken back.
+void cancel_samples(Tx& tx, const std::string& job);
+
 /// The task of a sample has failed for good.
 void fail_sample(Tx& tx, const TaskRow& task, const std::string& why);
 

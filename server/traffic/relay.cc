@@ -43,6 +43,9 @@ constexpr std::size_t kPieceBytes = 16384;
 constexpr std::size_t kLargePieceBytes = std::size_t{256} << 10;
 constexpr std::size_t kLargeSenders = 64;
 
+// Of a connection over TCP: bytes that wait in the system to be sent.
+constexpr int kMostUnsentBytes = 128 << 10;
+
 // Between two ticks: the process was stopped.
 constexpr std::chrono::seconds kStandstill{2};
 
@@ -135,6 +138,14 @@ class Relay::Connection final : public RelayLine, public std::enable_shared_from
 
   void hang_up() override {
     asio::post(strand_, [self = shared_from_this()] { self->close(); });
+  }
+
+  /// Its peer is late.
+  void give_up() {
+    asio::post(strand_, [self = shared_from_this()] {
+      self->refuse(self->server_ == nullptr ? "it has said nothing"
+                                            : "it takes nothing of what is sent to it");
+    });
   }
 
   std::uint64_t answered() const override { return answered_; }
@@ -344,6 +355,8 @@ std::shared_ptr<RelayLine> Relay::take(int socket, const std::string& peer,
   // A peer that is cut off is noticed by what it does not acknowledge; Unix sockets have no such option.
   const unsigned timeout_ms = static_cast<unsigned>(shared_->options.stall.count());
   setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &timeout_ms, sizeof timeout_ms);
+  // Else megabytes of an input wait there before a short answer, such as that to a renewal, for minutes on a slow line.
+  setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMostUnsentBytes, sizeof kMostUnsentBytes);
   const auto connection = std::make_shared<Connection>(*shared_, socket, peer, std::move(tls));
   const base::MutexLock lock(shared_->mutex);
   shared_->connections.emplace(connection.get(), connection);
@@ -364,7 +377,7 @@ void Relay::tick() {
       if (auto alive = connection.lock()) late.push_back(std::move(alive));
     }
   }
-  for (const auto& connection : late) connection->hang_up();
+  for (const auto& connection : late) connection->give_up();
 }
 
 void Relay::stop() {

@@ -23,7 +23,8 @@ std::unique_ptr<PreparedJob> JobShelf::take(const std::string& id, const std::st
   const auto found =
       std::find_if(jobs_.begin(), jobs_.end(), [&](const ShelvedJob& shelved) { return shelved.id == id; });
   if (found == jobs_.end()) return nullptr;
-  std::unique_ptr<PreparedJob> job = found->field == field ? std::move(found->job) : nullptr;
+  std::unique_ptr<PreparedJob> job = std::move(found->job);
+  if (found->field != field) job->forget_field();
   jobs_.erase(found);
   return job;
 }

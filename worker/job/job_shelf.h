@@ -27,7 +27,7 @@ class JobShelf {
   explicit JobShelf(std::uint64_t budget) : budget_(budget) {}
 
   void put(ShelvedJob job);
-  /// The job when it is there, and its field is this one; otherwise null.
+  /// The job when it is there, otherwise null; without a field when it was left with another one.
   std::unique_ptr<PreparedJob> take(const std::string& id, const std::string& field);
   void clear() { jobs_.clear(); }
   /// That the jobs take.

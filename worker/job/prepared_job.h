@@ -46,6 +46,12 @@ class PreparedJob {
   core::Erosion& erosion(unsigned threads, std::string_view stored);
   bool has_erosion() const { return erosion_ != nullptr; }
 
+  /// Lets go what is known of the field; what follows from the mesh stays.
+  void forget_field() {
+    erosion_.reset();
+    refinement_.reset();
+  }
+
   /// Its refinement, made at the first call; the field's engine is not needed from then on and let go.
   JobRefinement& refinement(unsigned threads);
   bool has_refinement() const { return refinement_ != nullptr; }

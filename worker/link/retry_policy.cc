@@ -8,6 +8,11 @@ constexpr RetryPolicy::Duration kMaxPause{1000};
 
 }  // namespace
 
+std::chrono::seconds call_timeout(std::uint64_t bytes) {
+  constexpr std::uint64_t kLeastBytesPerSecond = 1024;
+  return std::chrono::seconds(120 + static_cast<std::int64_t>(bytes / kLeastBytesPerSecond));
+}
+
 RetryPolicy::RetryPolicy(Duration patience, std::uint64_t seed)
     : patience_(patience), backoff_(kFirstPause, kMaxPause, seed) {}
 

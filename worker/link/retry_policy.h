@@ -2,12 +2,17 @@
 
 #include <grpcpp/support/status.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
 #include "link/backoff.h"
 
 namespace affskel::worker {
+
+/// How long a call may take that moves so many bytes: a server that says nothing is given up after two minutes, and one
+/// that moves less than 1 KiB a second ends the call itself.
+std::chrono::seconds call_timeout(std::uint64_t bytes);
 
 /// Whether, and after which pause, a call that ended with an error is made again.  One call of one task.
 class RetryPolicy {
@@ -32,6 +37,9 @@ class RetryPolicy {
 
   RetryPolicy(Duration patience, std::uint64_t seed);
 
+  /// The server has taken or sent something of the call, so long after it was first made.
+  void heard(Duration elapsed) { answered_ = std::max(answered_, elapsed); }
+
   /// A server that closes ends calls with UNAVAILABLE or CANCELLED: both mean "again", until patience has
   /// passed without an answer.  A server that is full (RESOURCE_EXHAUSTED), or says itself that it cannot
   /// answer now, has answered: it is asked without end.
@@ -42,7 +50,7 @@ class RetryPolicy {
 
  private:
   Duration patience_;
-  Duration answered_{0};  // when the server last answered at all
+  Duration answered_{0};  // when the server was last heard at all
   Backoff backoff_;
 };
 

@@ -16,7 +16,6 @@ namespace affskel::worker {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kCallTimeout = std::chrono::seconds(120);
 constexpr auto kLookAtStop = std::chrono::milliseconds(100);
 // A connection that no longer carries anything, though it was not closed, is replaced after the sum.
 constexpr int kKeepaliveMs = 10000;
@@ -75,21 +74,31 @@ void ServerLink::rest(std::chrono::milliseconds pause, const std::stop_token& st
   }
 }
 
+/// What the tries of a call tell each other.
+struct ServerLink::Course {
+  std::uint64_t bytes = 0;                 // that the call moves, once it is known: it has time for them
+  Clock::time_point moved = Clock::now();  // when the server last took or sent some
+};
+
 template <class Call>
-void ServerLink::with_retries(const char* what, Call call, const std::stop_token& task) {
+void ServerLink::with_retries(const char* what, Call call, const std::stop_token& task, std::uint64_t bytes) {
   const Clock::time_point begun = Clock::now();
+  const auto since_begun = [begun](Clock::time_point time) {
+    return std::chrono::duration_cast<RetryPolicy::Duration>(time - begun);
+  };
   RetryPolicy policy(options_.patience, seed_++);
+  Course course{bytes};
   for (;;) {
     grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
-    const grpc::Status status = call(context);
+    context.set_deadline(std::chrono::system_clock::now() + call_timeout(course.bytes));
+    const grpc::Status status = call(context, course);
     note_answer(status);
     if (status.ok()) return;
     std::string message = what;
     message.append(": ").append(status.error_message());
-    const RetryPolicy::Decision decision = policy.after(
-        status.error_code(), std::chrono::duration_cast<RetryPolicy::Duration>(Clock::now() - begun),
-        channel_->GetState(false) == GRPC_CHANNEL_READY);
+    policy.heard(since_begun(course.moved));
+    const RetryPolicy::Decision decision = policy.after(status.error_code(), since_begun(Clock::now()),
+                                                        channel_->GetState(false) == GRPC_CHANNEL_READY);
     switch (decision.verdict) {
       case RetryPolicy::Verdict::kAgain:
         break;
@@ -131,7 +140,7 @@ grpc::Status without_lease(const grpc::Status& status) {
 std::optional<v1::Lease> ServerLink::lease(const v1::LeaseTaskRequest& request) {
   v1::LeaseTaskResponse response;
   bool stopped = false;
-  with_retries("asking for work", [&](grpc::ClientContext& context) {
+  with_retries("asking for work", [&](grpc::ClientContext& context, Course&) {
     // Prompt at SIGTERM: the server then takes back a lease whose reply it cannot deliver.
     const std::stop_callback cancel(stop_, [&context] { context.TryCancel(); });
     const grpc::Status status = stub_->LeaseTask(&context, request, &response);
@@ -151,9 +160,9 @@ std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind, c
   std::string bytes;
   with_retries(
       "fetching an input",
-      [&](grpc::ClientContext& context) {
+      [&](grpc::ClientContext& context, Course& course) {
         const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-        const grpc::Status status = fetch_once(request, context, bytes);
+        const grpc::Status status = fetch_once(request, context, course, bytes);
         if (stop.stop_requested()) throw Interrupted("fetching an input was ended early");
         return status;
       },
@@ -162,14 +171,16 @@ std::string ServerLink::fetch(const std::string& token, v1::ArtifactKind kind, c
 }
 
 grpc::Status ServerLink::fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
-                                    std::string& bytes) {
+                                    Course& course, std::string& bytes) {
   bytes.clear();
   v1::ArtifactHeader header;
   v1::FetchArtifactResponse part;
   const auto reader = stub_->FetchInput(&context, request);
   while (reader->Read(&part)) {
+    course.moved = Clock::now();
     if (part.has_header()) {
       header = part.header();
+      course.bytes = header.bytes();
       bytes.reserve(header.bytes());
     } else {
       bytes += part.data();
@@ -187,24 +198,27 @@ v1::ReportResponse ServerLink::report(const v1::ReportErosionHeader& header,
   v1::ReportErosionRequest first;
   *first.mutable_header() = header;
   // A stream that broke looks like one that ended: the count tells them apart.
-  std::uint64_t count = 0;
+  std::uint64_t count = 0, bytes = 0;
   for (const v1::ReportErosionRequest& message : records) {
+    bytes += message.ByteSizeLong();
     count += static_cast<std::uint64_t>(message.records().point_size() + message.refined().point_size());
   }
   first.mutable_header()->set_records(count);
   first.mutable_header()->set_bounds_for(options_.worker);
   first.mutable_header()->set_bounds_bytes(wire::kMaxBoundsBytes);
   v1::ReportResponse response;
-  with_retries("reporting", [&](grpc::ClientContext& context) {
+  const auto send = [&](grpc::ClientContext& context, Course& course) {
     response.Clear();
     const auto writer = stub_->ReportErosion(&context, &response);
     bool open = writer->Write(first);
     for (auto message = records.begin(); open && message != records.end(); ++message) {
+      course.moved = Clock::now();
       open = writer->Write(*message);
     }
     writer->WritesDone();
     return writer->Finish();
-  });
+  };
+  with_retries("reporting", send, {}, bytes);
   return response;
 }
 
@@ -212,19 +226,21 @@ v1::ReportResponse ServerLink::complete(v1::CompleteTaskHeader header, std::stri
   header.set_bytes(data.size());
   header.set_sha256(wire::sha256_hex(data));
   v1::ReportResponse response;
-  with_retries("handing in a result", [&](grpc::ClientContext& context) {
+  const auto send = [&](grpc::ClientContext& context, Course& course) {
     response.Clear();
     const auto writer = stub_->CompleteTask(&context, &response);
     v1::CompleteTaskRequest message;
     *message.mutable_header() = header;
     bool open = writer->Write(message);
     for (std::size_t from = 0; open && from < data.size(); from += wire::kChunkBytes) {
+      course.moved = Clock::now();
       message.set_data(std::string(data.substr(from, wire::kChunkBytes)));
       open = writer->Write(message);
     }
     writer->WritesDone();
     return writer->Finish();
-  });
+  };
+  with_retries("handing in a result", send, {}, data.size());
   return response;
 }
 
@@ -232,15 +248,17 @@ v1::ReportResponse ServerLink::renew(const std::string& token) {
   v1::RenewLeaseRequest request;
   request.set_token(token);
   v1::ReportResponse response;
-  with_retries("renewing a lease",
-               [&](grpc::ClientContext& context) { return stub_->RenewLease(&context, request, &response); });
+  with_retries("renewing a lease", [&](grpc::ClientContext& context, Course&) {
+    return stub_->RenewLease(&context, request, &response);
+  });
   return response;
 }
 
 void ServerLink::fail(const v1::FailTaskRequest& request) {
   v1::ReportResponse response;
-  with_retries("reporting a failure",
-               [&](grpc::ClientContext& context) { return stub_->FailTask(&context, request, &response); });
+  with_retries("reporting a failure", [&](grpc::ClientContext& context, Course&) {
+    return stub_->FailTask(&context, request, &response);
+  });
 }
 
 void ServerLink::give_back(const std::string& token) {

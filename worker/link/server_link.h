@@ -87,9 +87,10 @@ class ServerLink {
   void give_back(const std::string& token);
 
  private:
+  struct Course;
   template <class Call>
-  void with_retries(const char* what, Call call, const std::stop_token& task = {});
-  grpc::Status fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context,
+  void with_retries(const char* what, Call call, const std::stop_token& task = {}, std::uint64_t bytes = 0);
+  grpc::Status fetch_once(const v1::FetchInputRequest& request, grpc::ClientContext& context, Course& course,
                           std::string& bytes);
   void rest(std::chrono::milliseconds pause, const std::stop_token& stop);
   void note_answer(const grpc::Status& status);

@@ -23,6 +23,13 @@ bool same_frame(const v1::PreparedSummary& stored, const v1::PreparedSummary& ow
   return stored.frame_size() == 0 ? frame_is(kMesh) : frame_is(stored.frame());
 }
 
+bool is_same_job(const v1::Lease& lease, const PreparedJob& job) {
+  const v1::PreparedSummary& stored = lease.job().prepared();
+  const v1::PreparedSummary own = job.summary();
+  return own.points() == stored.points() && own.spacing() == stored.spacing() &&
+         own.directions() == lease.job().directions_total() && same_frame(stored, own);
+}
+
 // The job's parameters with the spacing that its prepare task found.  The search for it compares doubles:
 // done anew, on another machine, it may end one rounding away, at another lattice.
 v1::ErosionParams prepared_params(const v1::Job& job) {
@@ -44,9 +51,15 @@ bool JobInHand::is_of(const v1::Lease& lease) const {
 
 PreparedJob& JobInHand::obtain(const v1::Lease& lease, TaskContext& context) {
   if (is_of(lease)) return *job_;
-  if (job_) shelf_.put({id_, field_, std::move(job_)});
+  if (job_ && id_ == lease.job().id()) {
+    job_->forget_field();
+  } else {
+    if (job_) shelf_.put({id_, field_, std::move(job_)});
+    job_ = shelf_.take(lease.job().id(), lease.field());
+  }
   id_.clear();
-  job_ = shelf_.take(lease.job().id(), lease.field());
+  // With its field the server may have forgotten its lattice, and have had another one laid.
+  if (job_ && lease.job().has_prepared() && !is_same_job(lease, *job_)) job_.reset();
   if (job_ == nullptr) make(lease, context);
   id_ = lease.job().id();
   field_ = lease.field();
@@ -87,10 +100,7 @@ std::uint64_t JobInHand::memory_left() const {
 }
 
 void require_same_job(const v1::Lease& lease, const PreparedJob& job) {
-  const v1::PreparedSummary& stored = lease.job().prepared();
-  const v1::PreparedSummary own = job.summary();
-  if (own.points() != stored.points() || own.spacing() != stored.spacing() ||
-      own.directions() != lease.job().directions_total() || !same_frame(stored, own)) {
+  if (!is_same_job(lease, job)) {
     throw core::CoreError(core::CoreError::Code::kInternal,
                           "this worker's core lays another lattice than the one that prepared the job");
   }

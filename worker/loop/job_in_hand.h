@@ -32,8 +32,8 @@ class JobInHand {
   /// Whether it is the job of this lease, with its field.
   bool is_of(const v1::Lease& lease) const;
 
-  /// The job of the lease: the one in hand, else from the shelf, else made from the mesh.  One that is in
-  /// hand for another lease goes to the shelf: all of its field must be acknowledged.
+  /// The job of the lease: the one in hand, else from the shelf, else made from the mesh; without a field when it was of
+  /// another one.  One that is in hand for another lease goes to the shelf: all of its field must be acknowledged.
   PreparedJob& obtain(const v1::Lease& lease, TaskContext& context);
 
   /// To be called whenever the erosion's field may hold work that the server did not acknowledge: such points

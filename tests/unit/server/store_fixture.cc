@@ -187,7 +187,7 @@ v1::ReportResponse StoreTest::report(const v1::Lease& lease, const std::vector<v
                     lease.job().prepared().volume());
   batch.append(records);
   batch.sort();
-  return store_->report(header, batch);
+  return store_->report(header, batch).response;
 }
 
 void StoreTest::finish_block(const v1::Lease& lease) {

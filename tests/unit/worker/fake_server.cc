@@ -161,12 +161,13 @@ grpc::Status FakeServer::ReportErosion(grpc::ServerContext*,
   return grpc::Status::OK;
 }
 
-grpc::Status FakeServer::CompleteTask(grpc::ServerContext*,
+grpc::Status FakeServer::CompleteTask(grpc::ServerContext* context,
                                       grpc::ServerReader<v1::CompleteTaskRequest>* reader,
                                       v1::ReportResponse*) {
   const grpc::Status status = begin("CompleteTask");
   if (!status.ok()) return status;
   Completion completion;
+  completion.time_left = context->deadline() - std::chrono::system_clock::now();
   v1::CompleteTaskRequest part;
   while (reader->Read(&part)) {
     if (part.has_header()) {

@@ -2,6 +2,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -48,6 +49,7 @@ class FakeServer final : public v1::WorkerService::Service {
   struct Completion {
     v1::CompleteTaskHeader header;
     std::string data;
+    std::chrono::system_clock::duration time_left{};  ///< to the call's deadline, when it began
   };
   std::vector<Report> reports() const;
   std::vector<Completion> completions() const;

@@ -1,11 +1,15 @@
 #include "calls/status.h"
 
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 #include <sqlite3.h>
 
 #include <cerrno>
 #include <exception>
+#include <memory>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -42,6 +46,16 @@ TEST(StatusTest, EveryErrorHasItsCode) {
   EXPECT_EQ(code_of(std::bad_alloc()), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_EQ(code_of(std::runtime_error("")), grpc::StatusCode::INTERNAL);
   EXPECT_TRUE(guarded([] {}).ok());
+}
+
+TEST(StatusTest, DamageIsForTheLog) {
+  std::ostringstream lines;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines)));
+  code_of(StoreError(StoreError::Code::kDamaged, "row 7"));
+  spdlog::set_default_logger(before);
+  EXPECT_NE(lines.str().find("event=damaged message=\"row 7\""), std::string::npos) << lines.str();
 }
 
 TEST(StatusTest, StatementsAndPathsAreNotForClients) {

@@ -237,6 +237,25 @@ TEST_F(RepairTest, LeasesAndHeldFieldsEndWithARepairAndWithACopyPutBack) {
   EXPECT_NE(after.field(), before.field());
 }
 
+// Neither number nor birth of the file tell of it, nor would they where a whole volume is set back.
+TEST_F(RepairTest, HeldFieldsEndWithACopyWrittenOverTheDatabase) {
+  submit();
+  prepare(kRepairedPoints, kRepairedDirections);
+  const v1::Lease before = lease();
+  store_.reset();
+  const std::string copy = database() + ".copy";
+  std::filesystem::copy_file(database(), copy);
+  open();
+  report(before, before.positions(0).begin(), before.positions(0).begin() + 1);
+  store_.reset();
+  std::ofstream(database(), std::ios::binary) << std::ifstream(copy, std::ios::binary).rdbuf();
+  open();
+  store_->give_back(before.token());
+  const v1::Lease after = lease();
+  EXPECT_EQ(after.positions(0).begin(), before.positions(0).begin()) << "its report is forgotten";
+  EXPECT_NE(after.field(), before.field());
+}
+
 // The database file itself
 
 TEST_F(RepairTest, AMissingOrEmptyDatabaseIsNotBegunAnew) {

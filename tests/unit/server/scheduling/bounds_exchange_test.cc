@@ -17,12 +17,12 @@ wire::PointRecord record(std::uint32_t point, double erosion) {
 }
 
 /// What a worker is told when it reports, by point.
-std::map<std::uint64_t, double> told(BoundsExchange& exchange, const std::string& job,
+std::map<std::uint64_t, double> told(BoundsExchange& exchange, const std::string& field,
                                      const std::string& worker,
                                      const std::vector<wire::PointRecord>& records = {},
                                      std::size_t room = wire::kUsualBoundsBytes) {
   v1::ReportResponse response;
-  exchange.exchange(job, worker, records, room, response);
+  exchange.exchange(field, worker, records, room, response);
   std::map<std::uint64_t, double> bounds;
   for (const v1::ErosionBounds& message : response.bounds()) {
     EXPECT_EQ(message.step_size(), message.bound_size());
@@ -147,9 +147,9 @@ TEST(BoundsExchange, AnswersFitWhatTheirWorkersTake) {
   EXPECT_LT(wire::kUsualBoundsBytes + 4096, std::uint32_t{4} << 20) << "gRPC's own limit";
 }
 
-TEST(BoundsExchange, RemembersTheWorkersOfSoManyJobs) {
+TEST(BoundsExchange, RemembersTheWorkersOfSoManyFields) {
   BoundsExchangeOptions options;
-  options.jobs = 2;
+  options.fields = 2;
   BoundsExchange exchange(options);
   for (const char* job : {"one", "two", "three"}) {
     told(exchange, job, "a");
@@ -158,6 +158,15 @@ TEST(BoundsExchange, RemembersTheWorkersOfSoManyJobs) {
   told(exchange, "three", "a", {record(1, 1.0)});
   EXPECT_EQ(told(exchange, "three", "b").size(), 1U);
   EXPECT_TRUE(told(exchange, "one", "a", {record(1, 1.0)}).empty());
+}
+
+TEST(BoundsExchange, RemembersSoManyWorkersOfAField) {
+  BoundsExchangeOptions options;
+  options.workers = 2;
+  BoundsExchange exchange(options);
+  for (const char* worker : {"a", "b", "c"}) exchange.join("field", worker);
+  EXPECT_TRUE(told(exchange, "field", "c", {record(1, 1.0)}).empty());
+  EXPECT_EQ(exchange.kept(), 0U) << "the others are forgotten, and it is alone";
 }
 
 }  // namespace

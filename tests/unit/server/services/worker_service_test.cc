@@ -4,6 +4,7 @@
 #include <future>
 #include <list>
 
+#include "database/sqlite.h"
 #include "service_fixture.h"
 #include "wire/identity.h"
 
@@ -107,6 +108,15 @@ TEST_F(WorkerServiceTest, ReportWithMissingRecordsIsRefused) {
   EXPECT_TRUE(send_report(*worker_, lease, 0, 1, false, &response).ok());
 }
 
+// "Try again" would be no answer.
+TEST_F(WorkerServiceTest, AResultThatIsTooLargeIsRefusedForGood) {
+  submit();
+  PrepareResult result = prepare_result(poll(0).lease().token(), 10, 40);
+  result.header.set_bytes(std::uint64_t{1} << 31);
+  EXPECT_EQ(send_result(*worker_, result.header, result.data).error_code(),
+            grpc::StatusCode::INVALID_ARGUMENT);
+}
+
 TEST_F(WorkerServiceTest, ReportInManyMessages) {
   const v1::Lease lease = block(20000, 16);
   v1::ReportResponse response;
@@ -157,6 +167,29 @@ TEST_F(WorkerServiceTest, InputsOfATask) {
     EXPECT_EQ(bytes, header.bytes());
     EXPECT_GT(bytes, 0U);
   }
+}
+
+// Over a slow line its renewals wait behind the input that it takes.
+TEST_F(WorkerServiceTest, TakingAnInputKeepsTheLease) {
+  options_.store.report_interval_ms = 0;
+  start();
+  submit(std::string(std::size_t{1} << 20, 'x'));
+  const v1::Lease lease = poll(0).lease();
+  const auto deadline = [this] {
+    Database db(options_.data_dir + "/affskel.db", Database::Mode::kReadOnly);
+    return db.integer("SELECT deadline_ms FROM tasks WHERE state = 'leased'");
+  };
+  const auto before = deadline();
+  for (int i = 0; i < 1000 && deadline() == before; ++i) {
+    grpc::ClientContext context;
+    v1::FetchInputRequest request;
+    request.set_token(lease.token());
+    request.set_kind(v1::ARTIFACT_KIND_MESH);
+    const auto reader = worker_->FetchInput(&context, request);
+    for (v1::FetchArtifactResponse message; reader->Read(&message);) continue;
+    EXPECT_TRUE(reader->Finish().ok());
+  }
+  EXPECT_GT(deadline(), before);
 }
 
 TEST_F(WorkerServiceTest, SilentWorkerIsReplacedWithoutBeingAsked) {

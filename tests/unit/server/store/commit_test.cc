@@ -23,31 +23,35 @@ class WatchingClock final : public Clock {
 
   std::int64_t wall_ms() const override {  // once for each change, on the thread that commits it
     if (begun_++ > 0) ++for_others_;
+    ++runs_;
     return clock_.wall_ms();
   }
   std::int64_t lease_ms() const override { return clock_.lease_ms(); }
 
   static void expect_one() { begun_ = 0; }
   int for_others() const { return for_others_; }
+  int runs() const { return runs_; }
 
  private:
   const Clock& clock_;
-  mutable std::atomic<int> for_others_ = 0;
+  mutable std::atomic<int> for_others_ = 0, runs_ = 0;
   inline static thread_local int begun_ = 0;
 };
 
 class CommitTest : public StoreTest {
  protected:
-  /// Every thread submits, and asks for what cannot be in between.
-  void submit_from_all_threads(Store& store) {
+  /// Every thread submits, and asks for what cannot be in between: once what is refused at once, and once what is refused
+  /// after a part of it was written.
+  void submit_from_all_threads(Store& store, const v1::Lease& block) {
     std::vector<std::thread> threads;
     for (int thread = 0; thread < kThreads; ++thread) {
-      threads.emplace_back([&store, thread] {
+      threads.emplace_back([this, &store, &block, thread] {
         for (int round = 0; round < kRounds; ++round) {
           const std::string mesh = "OFF " + std::to_string(thread) + "." + std::to_string(round);
           WatchingClock::expect_one();
           EXPECT_EQ(store.submit(submit_header(mesh, mesh), mesh).job.name(), mesh);
           if (round % 5 == 0) EXPECT_STORE_ERROR(store.renew("no token"), kFenced);
+          if (round % 5 == 2) EXPECT_STORE_ERROR(report(block, 0, 1, true), kInvalid);
         }
       });
     }
@@ -70,10 +74,17 @@ TEST_F(CommitTest, EachChangeIsMadeOnceWhateverBecomesOfThoseBesideIt) {
       expected.insert("OFF " + std::to_string(thread) + "." + std::to_string(round));
     }
   }
+  submit("OFF eroding", "eroding");
+  expected.insert("eroding");
+  prepare(4, 16);
+  const v1::Lease block = lease();
   const WatchingClock clock(clock_);
   store_.reset();
   store_ = std::make_unique<Store>(database(), options_, clock);
-  submit_from_all_threads(*store_);
+  const int before = clock.runs();
+  submit_from_all_threads(*store_, block);
+  EXPECT_EQ(clock.runs() - before, kThreads * (kRounds + 2 * kRounds / 5)) << "some were made again";
+  EXPECT_EQ(store_->job(block.job().id()).directions_done(), 0U);
   EXPECT_EQ(names(*store_), expected);
   EXPECT_GT(clock.for_others(), 0) << "nothing was committed together";
   store_ = std::make_unique<Store>(database(), options_, clock_);

@@ -124,6 +124,44 @@ TEST_F(VerifyTest, ASmallerValueThanTheStoredOneIsADifference) {
   for (const v1::VerifiedSample& sample : seen.samples()) EXPECT_EQ(sample.differing(), 1U);
 }
 
+// Numbers of tasks are given again: the next one must not bring a cancelled verification back to life.
+TEST_F(VerifyTest, WhatIsCancelledStaysSo) {
+  const v1::Job job = done_by_two();
+  const v1::Verification begun = store_->verify(job.id(), 1, 0);
+  const std::int64_t next = count("SELECT max(id) + 1 FROM tasks");
+  store_->cancel(job.id());
+  EXPECT_EQ(count("SELECT count(*) FROM samples WHERE state = 'pending'"), 0);
+  for (int i = 0; count("SELECT max(id) FROM tasks") < next; ++i) {
+    submit("OFF again " + std::to_string(i), "again");
+  }
+  const v1::Verification seen = store_->verify(job.id(), 0, static_cast<std::int64_t>(begun.id()));
+  EXPECT_TRUE(seen.finished());
+  for (const v1::VerifiedSample& sample : seen.samples()) EXPECT_EQ(sample.message(), "cancelled");
+  EXPECT_NE(store_->verify(job.id(), 1, 0).id(), 0U);
+}
+
+// Those that an earlier server left pending.
+TEST_F(VerifyTest, AnotherTaskIsNotTakenForThatOfASample) {
+  const v1::Job job = done_by_two();
+  const v1::Verification begun = store_->verify(job.id(), 1, 0);
+  store_->cancel(job.id());
+  Database(database(), Database::Mode::kReadWrite).execute("UPDATE samples SET state = 'pending'");
+  const std::int64_t reused = count("SELECT min(task_id) FROM samples");
+  for (int i = 0; count("SELECT max(id) FROM tasks") < reused; ++i) {
+    submit("OFF again " + std::to_string(i), "again");
+  }
+  EXPECT_TRUE(store_->verify(job.id(), 0, static_cast<std::int64_t>(begun.id())).finished());
+  EXPECT_GT(store_->verify(job.id(), 1, 0).samples_size(), 0);
+  EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_DONE);
+}
+
+// Its worker could not hand it in, and would compute it again and again.
+TEST_F(VerifyTest, WhatNoResultCanHoldIsRefusedBeforehand) {
+  const v1::Job job = done_by_two();
+  Database(database(), Database::Mode::kReadWrite).execute("UPDATE erosions SET points = 107374183");
+  EXPECT_STORE_ERROR(store_->verify(job.id(), 0, 0), kLimit);
+}
+
 TEST_F(VerifyTest, OnlyDoneJobsAreVerified) {
   const v1::Job job = submit();
   EXPECT_STORE_ERROR(store_->verify(job.id(), 0, 0), kPrecondition);

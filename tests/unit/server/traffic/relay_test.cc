@@ -1,6 +1,8 @@
 #include "traffic/relay.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -150,6 +152,8 @@ TEST(RelayTest, WhoSaysNothingIsHungUpOn) {
   Relayed one(relay);
   auto ended = std::async([&] { one.client->wait_for_end(); });
   while (ended.wait_for(milliseconds(1)) != std::future_status::ready) relay.tick();
+  one.wait_for_end();
+  EXPECT_EQ(one.why, "it has said nothing") << "for the log";
 }
 
 TEST(RelayTest, WhoTakesNothingIsHungUpOn) {
@@ -166,6 +170,7 @@ TEST(RelayTest, WhoTakesNothingIsHungUpOn) {
     server.offer(piece);
     relay.tick();
   }
+  EXPECT_EQ(one.why, "it takes nothing of what is sent to it") << "for the log";
 }
 
 /// Of one thread, so that what comes later is passed on later.
@@ -263,6 +268,17 @@ TEST(RelayTest, CallsThatEndWithTheirConnectionAreOwed) {
   same.client->send(call(5));
   let_pass(relay);
   EXPECT_FALSE(server.has_bytes());
+}
+
+// What the system holds nothing can overtake.
+TEST(RelayTest, LittleWaitsUnsentInTheSystem) {
+  Relay relay({});
+  const Socket client(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const auto line = relay.take(dup(client.fd()), "a", nullptr);
+  int most = 0;
+  socklen_t size = sizeof most;
+  ASSERT_EQ(getsockopt(client.fd(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most, &size), 0);
+  EXPECT_EQ(most, 128 << 10);
 }
 
 }  // namespace

@@ -30,8 +30,12 @@ TEST_F(JobShelfTest, GivesTheSameJobBackOnce) {
 // The server's database was put back: what the field knows may be news to it.
 TEST_F(JobShelfTest, AFieldFromAnotherDatabaseIsNotUsed) {
   JobShelf shelf(2 * each_);
-  shelf.put({"a", "before", job()});
-  EXPECT_EQ(shelf.take("a", "after"), nullptr);
+  std::unique_ptr<PreparedJob> left = job();
+  left->erosion(1, {});
+  shelf.put({"a", "before", std::move(left)});
+  const std::unique_ptr<PreparedJob> back = shelf.take("a", "after");
+  ASSERT_NE(back, nullptr) << "what follows from the mesh is kept";
+  EXPECT_FALSE(back->has_erosion());
   EXPECT_EQ(shelf.bytes(), 0U);
 }
 

@@ -94,6 +94,16 @@ TEST(RetryPolicy, PatienceBeginsAnewWithEveryAnswer) {
             Verdict::kServerGone);
 }
 
+// A call that streams for minutes over a slow line, and breaks.
+TEST(RetryPolicy, PatienceBeginsWhereTheServerWasLastHeard) {
+  RetryPolicy policy(kPatience, 7);
+  policy.heard(milliseconds(500000));
+  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(510000), false).verdict,
+            Verdict::kAgain);
+  EXPECT_EQ(policy.after(grpc::StatusCode::UNAVAILABLE, milliseconds(560001), false).verdict,
+            Verdict::kServerGone);
+}
+
 TEST(RetryPolicy, WhatCannotSucceedIsNotTriedAgain) {
   EXPECT_EQ(call_until(grpc::StatusCode::ABORTED, kPatience).verdict, Verdict::kLeaseLost);
   EXPECT_EQ(call_until(grpc::StatusCode::NOT_FOUND, kPatience).verdict, Verdict::kLeaseLost);

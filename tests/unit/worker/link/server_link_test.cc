@@ -93,6 +93,14 @@ TEST_F(LinkTest, AsksForWorkAgainWhenTheServersDiskCannotBeRead) {
   }
 }
 
+TEST_F(LinkTest, LargeCallsMayTakeLonger) {
+  link().complete({}, "small");
+  link().complete({}, std::string(10 << 20, 'x'));
+  const std::vector<FakeServer::Completion> completions = server_.completions();
+  EXPECT_LE(completions[0].time_left, std::chrono::seconds(120));
+  EXPECT_GT(completions[1].time_left, std::chrono::hours(2)) << "at 1 KiB a second";
+}
+
 TEST_F(LinkTest, FetchesAgainWhatArrivedDamaged) {
   const std::string mesh = sample_mesh();
   server_.set_input(v1::ARTIFACT_KIND_MESH, mesh);

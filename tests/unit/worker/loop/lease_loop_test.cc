@@ -97,6 +97,18 @@ TEST_F(LoopTest, FetchesNoFieldOfWhichNothingIsKnown) {
   EXPECT_TRUE(merged(prepared_, server_.reports()) == finished_field(prepared_));
 }
 
+// The server was started anew: what the field knows may be news to it.
+TEST_F(LoopTest, FetchesAFieldOfAnotherNameAnewAndKeepsTheMesh) {
+  for (const char* name : {"before", "after"}) {
+    v1::Lease lease = erode_lease(prepared_, name, 0, 256);
+    lease.set_field(name);
+    offer(lease);
+  }
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(server_.calls("FetchInput4"), 2);
+  EXPECT_EQ(server_.calls("FetchInput1"), 1);
+}
+
 TEST_F(LoopTest, NamesTheLeasesThatItHoldsWhenItAsksForMore) {
   const std::vector<std::string> tokens = {"a", "b", "c"};
   for (std::size_t i = 0; i < tokens.size(); ++i)
