@@ -1,5 +1,6 @@
 // Lines that are known: two balls meet in one circle, a ball and a rod through it in two.
 #include "core/infimum/crossing_links.h"
+#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ void expect_lines(const Mesh& mesh, int lines) {
   int begin = 0;
   for (const CrossingPair& pair : pairs) {
     EXPECT_TRUE(once.insert(std::minmax(pair.first, pair.second)).second);
-    if (pair.links[0] == CrossingPair::kNone) {
+    if (pair.links[0] == kNone) {
       ++begin;
       continue;
     }
