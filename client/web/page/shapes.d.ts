@@ -19,6 +19,9 @@ interface Session {
   usual?: any; // words of operator, frame and minimum
   sheets?: any; // words of operators that give sheets and curves
   artefacts?: any;
+  mesh_files?: string[]; // extensions of what a mesh is read from
+  voxel_files?: string[];
+  packed_files?: string[];
 }
 
 // What is seen at an address; one that asks is asked again and again, and given how.
