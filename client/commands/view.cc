@@ -10,6 +10,7 @@
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
 #include "client/commands/shared/notices.h"
+#include "client/commands/shared/skeleton_options.h"
 #include "client/commands/shared/stance_option.h"
 #include "client/operations/job_notices.h"
 #include "client/operations/page.h"

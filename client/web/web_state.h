@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/operations/repair.h"
 #include "client/web/backend.h"
 #include "client/web/picture_cache.h"
 #include "client/web/private_folder.h"
