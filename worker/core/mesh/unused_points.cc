@@ -1,4 +1,5 @@
 #include "core/mesh/unused_points.h"
+
 #include "core/base/none.h"
 
 namespace affskel::core {

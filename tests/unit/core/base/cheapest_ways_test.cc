@@ -1,5 +1,4 @@
 #include "core/base/cheapest_ways.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

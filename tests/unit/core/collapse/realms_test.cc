@@ -1,5 +1,4 @@
 #include "core/collapse/realms.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

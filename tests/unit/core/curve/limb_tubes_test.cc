@@ -1,5 +1,4 @@
 #include "core/curve/limb_tubes.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/curve/drawn_lines.h"
 
 namespace affskel::core {

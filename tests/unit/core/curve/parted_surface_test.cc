@@ -1,5 +1,4 @@
 #include "core/curve/parted_surface.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #include "core/erosion/join_tree.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // Lines that are known: two balls meet in one circle, a ball and a rod through it in two.
 #include "core/infimum/crossing_links.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // Least pieces against closed forms, against planes near them, and their slopes against differences.
 #include "core/infimum/least_chord.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

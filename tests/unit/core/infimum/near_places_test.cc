@@ -1,6 +1,5 @@
 // Pieces that hold a place of greater E, against the pieces themselves.
 #include "core/infimum/near_places.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

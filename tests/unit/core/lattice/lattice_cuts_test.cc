@@ -1,11 +1,11 @@
 #include "core/lattice/lattice_cuts.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "core/base/none.h"
 #include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
 #include "core/stopping_context.h"

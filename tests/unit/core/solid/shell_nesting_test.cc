@@ -1,5 +1,4 @@
 #include "core/solid/shell_nesting.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #include "core/spatial/axis_rays.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

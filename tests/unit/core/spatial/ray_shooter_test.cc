@@ -1,5 +1,4 @@
 #include "core/spatial/ray_shooter.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 

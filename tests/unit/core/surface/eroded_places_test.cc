@@ -1,10 +1,10 @@
 #include "core/surface/eroded_places.h"
-#include "core/base/none.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "core/base/none.h"
 #include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
