@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <random>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
 

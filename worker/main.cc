@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <stop_token>
 #include <system_error>
-#include <thread>
 
 #include "affskel/v1/types.pb.h"
 #include "base/end_limit.h"
@@ -121,13 +120,8 @@ struct Flags {
   std::int64_t derive_limit_s = 0;
 };
 
-CLI::App* declare(CLI::App& app, Flags& flags) {
-  app.set_version_flag("--version", std::string("affskel-worker ") + affskel::wire::kVersion);
-  app.footer(
-      "Examples:\n"
-      "  affskel-worker --server unix:/run/affskel/server.sock --threads 4\n"
-      "  affskel-worker --server lab.example.org:7060 --tls-ca ca.pem --token-file worker.token\n"
-      "  affskel-worker compute body.off --spacing 200 -o body.vti");
+// What it works for, and with.
+void add_work(CLI::App& app, Flags& flags) {
   app.add_option("--server", flags.loop.server, "server to work for: unix:PATH or HOST:PORT");
   app.add_option("--threads", flags.loop.threads, "computing threads")
       ->check(CLI::Range(1U, 1024U))
@@ -153,6 +147,10 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       ->envname("AFFSKEL_DERIVE_LIMIT")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
       ->capture_default_str();
+}
+
+// How long it stays, and what it tells.
+void add_stay(CLI::App& app, Flags& flags) {
   app.add_option("--idle-exit", flags.idle_exit_s, "leave after this many seconds without work; 0 = never")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
       ->capture_default_str();
@@ -166,6 +164,9 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   app.add_option("--log-level", flags.log_level, "debug, info, warn, error or off")
       ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+}
+
+void add_access(CLI::App& app, Flags& flags) {
   app.add_option("--token-file", flags.loop.access.token_file,
                  "file whose first line is the token to show; else $AFFSKEL_TOKEN_FILE")
       ->envname("AFFSKEL_TOKEN_FILE");
@@ -177,6 +178,9 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
       ->envname("AFFSKEL_CLIENT_CERT");
   app.add_option("--client-key", flags.loop.access.tls_key, "its key, PEM; else $AFFSKEL_CLIENT_KEY")
       ->envname("AFFSKEL_CLIENT_KEY");
+}
+
+CLI::App* add_compute(CLI::App& app, Flags& flags) {
   CLI::App* compute = app.add_subcommand("compute", "prepare and erode in this process, without a server");
   compute->add_option("FILE", flags.compute.file, "closed triangle mesh, as affskel-client reads it")
       ->required();
@@ -215,6 +219,20 @@ CLI::App* declare(CLI::App& app, Flags& flags) {
   compute->add_option("-o,--output", flags.compute.output,
                       "write the field: .csv .dat .vti .vts .vtkhdf .hdf");
   return compute;
+}
+
+// @return the command.
+CLI::App* declare(CLI::App& app, Flags& flags) {
+  app.set_version_flag("--version", std::string("affskel-worker ") + affskel::wire::kVersion);
+  app.footer(
+      "Examples:\n"
+      "  affskel-worker --server unix:/run/affskel/server.sock --threads 4\n"
+      "  affskel-worker --server lab.example.org:7060 --tls-ca ca.pem --token-file worker.token\n"
+      "  affskel-worker compute body.off --spacing 200 -o body.vti");
+  add_work(app, flags);
+  add_stay(app, flags);
+  add_access(app, flags);
+  return add_compute(app, flags);
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "client/base/spots.h"
 
-#include "core/base/disjoint_sets.h"
 #include "core/mesh/box.h"
 
 namespace affskel::client {
-namespace {
 
 core::DisjointSets pieces_of(const v1::TriangleMesh& sheet) {
   core::DisjointSets pieces(static_cast<std::size_t>(sheet.xyz_size() / 3));
@@ -16,15 +14,15 @@ core::DisjointSets pieces_of(const v1::TriangleMesh& sheet) {
   return pieces;
 }
 
-}  // namespace
+core::Vec3 vertex_of(const v1::TriangleMesh& sheet, std::uint32_t v) {
+  const int first = 3 * static_cast<int>(v);
+  return {sheet.xyz(first), sheet.xyz(first + 1), sheet.xyz(first + 2)};
+}
 
 std::vector<std::uint32_t> spots_of(const v1::TriangleMesh& sheet, double size) {
   core::DisjointSets pieces = pieces_of(sheet);
   std::vector<core::Box> boxes(static_cast<std::size_t>(sheet.xyz_size() / 3));
-  for (std::uint32_t v = 0; v < boxes.size(); ++v) {
-    const int first = 3 * static_cast<int>(v);
-    boxes[pieces.find(v)].include(core::Vec3{sheet.xyz(first), sheet.xyz(first + 1), sheet.xyz(first + 2)});
-  }
+  for (std::uint32_t v = 0; v < boxes.size(); ++v) boxes[pieces.find(v)].include(vertex_of(sheet, v));
   std::vector<std::uint32_t> spots;
   for (std::uint32_t v = 0; v < boxes.size(); ++v)
     if (pieces.find(v) == v && boxes[v].longest_side() < size) spots.push_back(v);

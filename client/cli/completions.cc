@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 
 #include "client/base/error.h"
-#include "client/base/mesh_extensions.h"
 #include "client/cli/help_format.h"
 #include "client/cli/value_checks.h"
+#include "core/files/read/parse_shape.h"
 
 namespace affskel::client {
 namespace {
@@ -97,10 +97,11 @@ std::string mesh_patterns(const std::string& before, const std::string& between)
   const auto add = [&](std::string_view extension) {
     const std::string pattern = before + std::string(extension.substr(1));
     patterns.push_back(pattern);
-    for (const std::string_view packed : kPackedExtensions) patterns.push_back(pattern + std::string(packed));
+    for (const std::string_view packed : core::packed_extensions())
+      patterns.push_back(pattern + std::string(packed));
   };
-  for (const std::string_view extension : kMeshExtensions) add(extension);
-  for (const std::string_view extension : kVoxelExtensions) add(extension);
+  for (const std::string_view extension : core::mesh_extensions()) add(extension);
+  for (const std::string_view extension : core::voxel_extensions()) add(extension);
   return join(patterns, between);
 }
 

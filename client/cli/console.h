@@ -2,7 +2,6 @@
 
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 #include <string_view>
 
 #include "base/mutex.h"

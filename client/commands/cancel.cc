@@ -1,8 +1,6 @@
-#include <memory>
-
 #include "client/commands/commands.h"
+#include "client/commands/job_command.h"
 #include "client/commands/shared/follow.h"
-#include "client/commands/shared/job_options.h"
 
 namespace affskel::client {
 namespace {
@@ -19,10 +17,8 @@ void run_cancel(Context& context, const std::string& name) {
 }  // namespace
 
 void add_cancel(CommandLine& line) {
-  const auto job = std::make_shared<std::string>();
-  CLI::App* command = line.add("cancel", "Stop a job, keeping its progress", "  affskel-client cancel @last",
-                               [job](Context& context) { run_cancel(context, *job); });
-  add_job(command, *job);
+  add_job_command(line, "cancel", "Stop a job, keeping its progress", "  affskel-client cancel @last",
+                  run_cancel);
 }
 
 }  // namespace affskel::client

@@ -1,8 +1,7 @@
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "client/commands/commands.h"
-#include "client/commands/shared/job_options.h"
+#include "client/commands/job_command.h"
 
 namespace affskel::client {
 namespace {
@@ -16,11 +15,8 @@ void run_delete(Context& context, const std::string& name) {
 }  // namespace
 
 void add_delete(CommandLine& line) {
-  const auto job = std::make_shared<std::string>();
-  CLI::App* command =
-      line.add("delete", "Remove a job and everything that belongs to it", "  affskel-client delete 3f2a9c",
-               [job](Context& context) { run_delete(context, *job); });
-  add_job(command, *job);
+  add_job_command(line, "delete", "Remove a job and everything that belongs to it",
+                  "  affskel-client delete 3f2a9c", run_delete);
 }
 
 }  // namespace affskel::client

@@ -1,4 +1,3 @@
-#include <memory>
 #include <ostream>
 
 #include "client/cli/manual_page.h"

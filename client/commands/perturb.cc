@@ -17,6 +17,8 @@
 #include "client/files/write/shape_writer.h"
 #include "client/operations/shape_notices.h"
 #include "core/base/error.h"
+#include "core/files/read/parse_shape.h"
+#include "core/mesh/box.h"
 #include "core/mesh/coincident_points.h"
 #include "core/spatial/self_intersection.h"
 
@@ -114,7 +116,7 @@ void add_perturb(CommandLine& line) {
                "The same seed gives the same noise on every machine.",
                [options](Context& context) { run_perturb(context, *options); });
   add_file(command, "FILE", options->file,
-           "Mesh: .off .ply .obj .stl .vtp .glb .gltf .3mf, also by gzip or zstd; - reads it from stdin");
+           "Mesh:" + core::listed(core::mesh_extensions()) + ", also by gzip or zstd; - reads it from stdin");
   command->get_option("FILE")->check(mesh_file());
   add_output(command, options->output, "File to write: .off .ply .obj .stl .vtp");
   add_format(command, options->format);

@@ -78,9 +78,10 @@ void add_repair(CommandLine& line) {
                    mesh_kinds() + "; for a wrap points, too (.xyz, .ply).\n- reads it from stdin")
       ->required()
       ->type_name("");
-  add_repair_option(
-      command, options->how,
-      "auto fills holes up to 0.6 of the box's diagonal round, fill=LENGTH up to that\nlength; wrap, or wrap=ALPHA, takes a new surface round all of it, which closes\nhollows narrower than a 220th of the diagonal; none only checks");
+  add_repair_option(command, options->how,
+                    "auto fills holes up to 0.6 of the box's diagonal round, fill=LENGTH up to that\n"
+                    "length; wrap, or wrap=ALPHA, takes a new surface round all of it, which closes\n"
+                    "hollows narrower than a 220th of the diagonal; none only checks");
   add_isovalue(command, options->reading.isovalue);
   add_format(command, options->format);
   add_output(command, options->output, "Mesh file to write, or -");

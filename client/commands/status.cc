@@ -1,7 +1,5 @@
-#include <memory>
-
 #include "client/commands/commands.h"
-#include "client/commands/shared/job_options.h"
+#include "client/commands/job_command.h"
 #include "client/text/job_text.h"
 #include "client/text/message_json.h"
 
@@ -17,11 +15,8 @@ void run_status(Context& context, const std::string& name) {
 }  // namespace
 
 void add_status(CommandLine& line) {
-  const auto job = std::make_shared<std::string>();
-  CLI::App* command = line.add("status", "State, progress and facts of a job",
-                               "  affskel-client status @last\n  affskel-client --json status 3f2a9c",
-                               [job](Context& context) { run_status(context, *job); });
-  add_job(command, *job);
+  add_job_command(line, "status", "State, progress and facts of a job",
+                  "  affskel-client status @last\n  affskel-client --json status 3f2a9c", run_status);
 }
 
 }  // namespace affskel::client

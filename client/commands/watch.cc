@@ -1,8 +1,6 @@
-#include <memory>
-
 #include "client/commands/commands.h"
+#include "client/commands/job_command.h"
 #include "client/commands/shared/follow.h"
-#include "client/commands/shared/job_options.h"
 #include "client/text/words.h"
 
 namespace affskel::client {
@@ -17,11 +15,8 @@ void run_watch(Context& context, const std::string& name) {
 }  // namespace
 
 void add_watch(CommandLine& line) {
-  const auto job = std::make_shared<std::string>();
-  CLI::App* command = line.add("watch", "Follow a job to its end; prints the final state",
-                               "  affskel-client watch @last\n  affskel-client --json watch 3f2a9c",
-                               [job](Context& context) { run_watch(context, *job); });
-  add_job(command, *job);
+  add_job_command(line, "watch", "Follow a job to its end; prints the final state",
+                  "  affskel-client watch @last\n  affskel-client --json watch 3f2a9c", run_watch);
 }
 
 }  // namespace affskel::client

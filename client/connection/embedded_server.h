@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <string>
 
 #include "client/base/notice.h"
 #include "client/connection/environment.h"

@@ -2,8 +2,6 @@
 
 #include <grpcpp/client_context.h>
 
-#include <string_view>
-
 #include "affskel/v1/client_service.grpc.pb.h"
 #include "client/connection/session.h"
 

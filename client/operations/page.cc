@@ -1,7 +1,6 @@
 #include "client/operations/page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>

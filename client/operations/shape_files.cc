@@ -14,7 +14,6 @@
 #include "client/operations/shape_output.h"
 #include "client/text/job_facts.h"
 #include "client/text/skeleton_text.h"
-#include "client/text/words.h"
 #include "wire/params.h"
 
 namespace affskel::client {

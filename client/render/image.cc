@@ -3,9 +3,7 @@
 #include <png.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 
 #include "client/base/error.h"
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "client/render/raster.h"
 #include "core/base/unit.h"
@@ -244,14 +243,23 @@ void Panel::draw_curves(const std::vector<Vec3>& points, const std::vector<core:
   }
 }
 
+template <class Paint>
+void Panel::draw_smooth(const core::Mesh& mesh, const std::vector<Vec3>& normals, std::size_t triangle,
+                        const Paint& paint) {
+  std::array<Projected, 3> p{};
+  for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[mesh.triangles[triangle][c]]);
+  const std::array<ScreenPoint, 3> corners = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
+  const Vec3* n = &normals[3 * triangle];
+  for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
+    paint(x, y, static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth),
+          [&] { return direction_of((w0 * n[0] + w1 * n[1]) + w2 * n[2]); });
+  });
+}
+
 void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normals, const Glass& glass) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::array<Projected, 3> p{};
-    for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[mesh.triangles[t][c]]);
-    const std::array<ScreenPoint, 3> corners = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
-    const Vec3* n = &normals[3 * t];
-    for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
-      const Vec3 normal = direction_of((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
+    draw_smooth(mesh, normals, t, [&](int x, int y, float depth, const auto& normal_at) {
+      const Vec3 normal = normal_at();
       double facing = core::dot(normal, view_.toward);
       const double side = facing < 0 ? -1 : 1;
       facing *= side;
@@ -260,7 +268,6 @@ void Panel::draw_surface(const core::Mesh& mesh, const std::vector<Vec3>& normal
       // Clear where it faces the viewer, denser towards the outline.
       const double aside = std::max(0.0, 1 - facing);
       const float opacity = clamp01(glass.clear + glass.rim * aside * aside * std::sqrt(aside));
-      const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
       Sample& sample = at(x, y);
       Layers& layers = sample.covered && depth > sample.depth ? sample.front : sample.back;
       layers.add(opacity, mix(glass.dark, glass.light, clamp01(light)));
@@ -272,15 +279,10 @@ void Panel::draw_shell(const core::Mesh& mesh, const std::vector<Vec3>& normals,
                        const std::vector<Rgb>& colours, float opacity) {
   shell_.resize(samples_.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::array<Projected, 3> p{};
-    for (std::size_t c = 0; c < 3; ++c) p[c] = project(mesh.points[mesh.triangles[t][c]]);
-    const std::array<ScreenPoint, 3> corners = {{{p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}}};
-    const Vec3* n = &normals[3 * t];
-    for_each_sample(corners, columns_, rows_, [&](int x, int y, double w0, double w1, double w2) {
-      const auto depth = static_cast<float>((w0 * p[0].depth + w1 * p[1].depth) + w2 * p[2].depth);
+    draw_smooth(mesh, normals, t, [&](int x, int y, float depth, const auto& normal_at) {
       ShellSample& sample = shell_[index_of(x, y)];
       if (sample.opacity > 0 && depth <= sample.depth) return;
-      const Vec3 normal = direction_of((w0 * n[0] + w1 * n[1]) + w2 * n[2]);
+      const Vec3 normal = normal_at();
       const double light = lambert(core::dot(normal, view_.right), core::dot(normal, view_.up),
                                    std::fabs(core::dot(normal, view_.toward)));
       const auto shade = static_cast<float>(kSheetShade + (1 - kSheetShade) * light);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "client/render/image.h"
@@ -126,6 +125,10 @@ class Panel {
   // Draws a facet that is seen from its edge, thinner than a pixel, as a line along its longest side; false
   // for any other.
   bool draw_profile(const std::array<core::Vec3, 3>& corners, const std::array<Rgb, 3>& colours);
+  // Calls paint(x, y, depth, normal) for every sample of a triangle; normal() is the interpolated one, unit or zero.
+  template <class Paint>
+  void draw_smooth(const core::Mesh& mesh, const std::vector<core::Vec3>& normals, std::size_t triangle,
+                   const Paint& paint);
   // Keeps what is nearer.
   static void cover(Sample& sample, float depth, Rgb colour);
   std::size_t index_of(int x, int y) const {

@@ -175,7 +175,10 @@ std::string percent_text(const v1::Job& job) {
   return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + "%";
 }
 
-std::string job_details(const v1::Job& job, bool colour) {
+namespace {
+
+// What it is and how it stands.
+std::string standing(const v1::Job& job, bool colour) {
   std::string text;
   text += key_line("job", job.id());
   text += key_line("name", job.name());
@@ -209,8 +212,11 @@ std::string job_details(const v1::Job& job, bool colour) {
       if (job.has_quality() && key != "points") text += key_line("skeleton_" + key, value);
     }
   }
-  if (job.has_prepared()) text += prepared_details(job.prepared(), colour);
-  text += key_line("asked_sampling", asked_sampling(job.params().sampling()));
+  return text;
+}
+
+std::string asked_for(const v1::Job& job) {
+  std::string text = key_line("asked_sampling", asked_sampling(job.params().sampling()));
   text += key_line("asked_directions",
                    job.params().directions().empty() ? "triangles" : job.params().directions());
   if (frame_word(job.params().frame()) != "axis") {
@@ -220,7 +226,15 @@ std::string job_details(const v1::Job& job, bool colour) {
     text += key_line("asked_minimum", minimum_word(job.params().minimum()));
     if (job.refine_round() > 0) text += key_line("refine_rounds", std::to_string(job.refine_round()));
   }
-  text += key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
+  return text + key_line("asked_skeleton", skeleton_params_text(job.skeleton()));
+}
+
+}  // namespace
+
+std::string job_details(const v1::Job& job, bool colour) {
+  std::string text = standing(job, colour);
+  if (job.has_prepared()) text += prepared_details(job.prepared(), colour);
+  text += asked_for(job);
   text += key_line("repair", job.params().repair() ? "auto" : "none");
   for (const v1::RepairStep& step : job.repair().steps())
     text += key_line("repaired", step.code() + ": " + step.message());

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <span>
 
-#include "core/base/disjoint_sets.h"
-#include "core/base/vec3.h"
+#include "client/base/spots.h"
 
 namespace affskel::client {
 namespace {
 
 using core::Vec3;
-
-Vec3 vertex(const v1::TriangleMesh& sheet, std::uint32_t v) {
-  const int first = 3 * static_cast<int>(v);
-  return {sheet.xyz(first), sheet.xyz(first + 1), sheet.xyz(first + 2)};
-}
 
 double mean_strength(const v1::TriangleMesh& sheet, std::span<const std::uint32_t> element) {
   double sum = 0;
@@ -23,10 +17,10 @@ double mean_strength(const v1::TriangleMesh& sheet, std::span<const std::uint32_
 }
 
 double weight(const v1::TriangleMesh& sheet, std::span<const std::uint32_t> element) {
-  const Vec3 at = vertex(sheet, element[0]), along = vertex(sheet, element[1]) - at;
+  const Vec3 at = vertex_of(sheet, element[0]), along = vertex_of(sheet, element[1]) - at;
   const double area = element.size() == 2
                           ? core::dot(along, along)
-                          : 0.5 * core::norm(core::cross(along, vertex(sheet, element[2]) - at));
+                          : 0.5 * core::norm(core::cross(along, vertex_of(sheet, element[2]) - at));
   return area * mean_strength(sheet, element);
 }
 
@@ -42,10 +36,7 @@ std::vector<std::span<const std::uint32_t>> elements_of(const v1::TriangleMesh& 
 
 SheetPieces sheet_pieces(const v1::TriangleMesh& sheet) {
   const auto elements = elements_of(sheet);
-  core::DisjointSets vertices(static_cast<std::size_t>(sheet.xyz_size() / 3));
-  for (const auto& element : elements) {
-    for (const std::uint32_t v : element.subspan(1)) vertices.unite(element[0], v);
-  }
+  core::DisjointSets vertices = pieces_of(sheet);
   std::vector<double> weights(static_cast<std::size_t>(sheet.xyz_size() / 3), 0);  // by the vertex of a set
   std::vector<std::uint32_t> roots;
   double whole = 0;

@@ -7,6 +7,7 @@
 #include "client/web/api_answers.h"
 #include "client/web/cookie.h"
 #include "client/web/handlers.h"
+#include "core/files/read/parse_shape.h"
 #include "wire/params.h"
 #include "wire/version.h"
 
@@ -80,6 +81,14 @@ ordered_json sheet_operators() {
   return sheets;
 }
 
+// A page sends one file of each mesh.
+std::vector<std::string_view> mesh_files() {
+  std::vector<std::string_view> extensions = core::mesh_extensions();
+  const std::vector<std::string_view> clouds = core::cloud_extensions();
+  extensions.insert(extensions.end(), clouds.begin(), clouds.end());
+  return extensions;
+}
+
 ordered_json session_json(const WebState& web, const WebUser& user) {
   return {{"mode", web.options.personal ? "personal" : "sign-in"},
           {"signed_in", true},
@@ -93,7 +102,10 @@ ordered_json session_json(const WebState& web, const WebUser& user) {
             {"frame", frame_word(v1::FRAME_UNSPECIFIED)},
             {"minimum", minimum_word(v1::MINIMUM_UNSPECIFIED)}}},
           {"sheets", sheet_operators()},
-          {"artefacts", offered_artifacts()}};
+          {"artefacts", offered_artifacts()},
+          {"mesh_files", mesh_files()},
+          {"voxel_files", core::voxel_extensions(core::VoxelFiles::kWhole)},
+          {"packed_files", core::packed_extensions()}};
 }
 
 }  // namespace

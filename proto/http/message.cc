@@ -1,14 +1,9 @@
 #include "http/message.h"
 
+#include <charconv>
+
 namespace affskel::http {
 namespace {
-
-int hexadecimal(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 // RFC 3986; a plus sign in a query is a blank, as forms write it.
 std::optional<std::string> decoded(std::string_view text, bool plus_is_blank) {
@@ -18,10 +13,11 @@ std::optional<std::string> decoded(std::string_view text, bool plus_is_blank) {
       plain += plus_is_blank && text[i] == '+' ? ' ' : text[i];
       continue;
     }
-    const int high = i + 2 < text.size() ? hexadecimal(text[i + 1]) : -1;
-    const int low = i + 2 < text.size() ? hexadecimal(text[i + 2]) : -1;
-    if (high < 0 || low < 0) return std::nullopt;
-    plain += static_cast<char>(16 * high + low);
+    const std::string_view digits = text.substr(i + 1, 2);
+    unsigned char byte = 0;  // unsigned: no sign is read
+    const char* const end = digits.data() + digits.size();
+    if (digits.size() < 2 || std::from_chars(digits.data(), end, byte, 16).ptr != end) return std::nullopt;
+    plain += static_cast<char>(byte);
     i += 2;
   }
   return plain.find('\0') == std::string::npos ? std::optional(plain) : std::nullopt;

@@ -1,7 +1,6 @@
 #include "http/places.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace affskel::http {

@@ -2,7 +2,6 @@
 
 #include <boost/asio/ip/address.hpp>
 #include <chrono>
-#include <cstdint>
 #include <functional>
 #include <list>
 #include <memory>

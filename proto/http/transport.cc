@@ -1,12 +1,11 @@
 #include "http/transport.h"
 
-#include <poll.h>
-
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 
+#include "net/peer_has_ended.h"
 #include "net/read_some.h"
 
 namespace affskel::http {
@@ -30,8 +29,7 @@ class StreamTransport : public Transport {
   void allow_any_time() override { beast::get_lowest_layer(stream_).expires_never(); }
   void close() override { beast::get_lowest_layer(stream_).close(); }
   bool has_peer_gone() override {
-    pollfd socket{beast::get_lowest_layer(stream_).socket().native_handle(), POLLRDHUP, 0};
-    return poll(&socket, 1, 0) == 1;
+    return net::peer_has_ended(beast::get_lowest_layer(stream_).socket().native_handle());
   }
 
   asio::awaitable<std::size_t> read(asio::mutable_buffer room) override {

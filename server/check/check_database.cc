@@ -7,7 +7,6 @@
 #include "check/check_rules.h"
 #include "check/check_schema.h"
 #include "database/database_file.h"
-#include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
 

@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <csignal>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>

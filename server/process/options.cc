@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <iterator>
 #include <map>
 #include <thread>
@@ -136,7 +135,8 @@ CLI::Validator quietly(CLI::Validator check) {
   return check.description("");
 }
 
-void add_options(CLI::App& app, Options& options, std::string& workers) {
+/// Where it listens, and who may call.
+void add_addresses(CLI::App& app, Options& options) {
   app.add_option("--data-dir", options.data_dir, "Directory of the database, made if absent")
       ->required()
       ->type_name("DIR");
@@ -172,6 +172,9 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
          "HOST:PORT that answers GET /metrics, for Prometheus, and GET /healthz; port 0 = any free one; "
          "default: none. Nothing protects it")
       ->type_name("ADDR");
+}
+
+void add_workers(CLI::App& app, Options& options, std::string& workers) {
   app.add_option("--workers", workers, "Local workers to start and keep running; auto = one per core")
       ->type_name("N|auto")
       ->capture_default_str();
@@ -183,6 +186,9 @@ void add_options(CLI::App& app, Options& options, std::string& workers) {
                  "The worker program; default: affskel-worker next to this program, else on the PATH")
       ->check(quietly(CLI::ExistingFile))
       ->type_name("FILE");
+}
+
+void add_conduct(CLI::App& app, Options& options) {
   app.add_option("--idle-exit", options.idle_exit_s,
                  "Exit after this many seconds without work, client calls and watchers")
       ->check(seconds())
@@ -343,7 +349,9 @@ ParsedOptions parse_options(int argc, char** argv) {
   CLI::App app("Queue and store of the affine skeleton service", "affskel-server");
   app.set_version_flag("--version", std::string("affskel-server ") + wire::kVersion);
   app.footer(kFooter);
-  add_options(app, parsed.options, workers);
+  add_addresses(app, parsed.options);
+  add_workers(app, parsed.options, workers);
+  add_conduct(app, parsed.options);
   add_policy(app, policy);
   add_commands(app, parsed.options);
   try {

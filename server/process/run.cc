@@ -188,6 +188,39 @@ class Supervised {
   Supervised& operator=(const Supervised&) = delete;
 };
 
+ServerOptions server_options(const Options& options, const std::string& data_dir) {
+  ServerOptions server;
+  server.data_dir = data_dir;
+  server.listen = listen_addresses(options, data_dir);
+  server.socket_mode = options.socket_mode;
+  server.tls = {options.tls_cert, options.tls_key, options.tls_client_ca};
+  server.insecure = options.insecure;
+  if (!options.metrics.empty()) server.metrics = wire::parse_address(options.metrics);
+  server.store.lease_ms = options.lease_ms;
+  server.store.report_interval_ms = options.report_interval_ms;
+  server.store.max_mesh_bytes = options.max_mesh_mb << 20;
+  server.store.owner_order = options.owner_order;
+  server.store.policy = options.policy;
+  return server;
+}
+
+/// Tells all who look for the server where it is.
+void publish(const DataDir& data_dir, const Server& server) {
+  std::vector<std::string> targets;
+  for (const wire::Address& address : server.addresses()) {
+    targets.push_back(address.target());
+    spdlog::info(base::logfmt(
+        "listening",
+        {{"address", targets.back()}, {"version", wire::kVersion}, {"data_dir", data_dir.path()}}));
+  }
+  std::optional<std::string> metrics;
+  if (const auto address = server.metrics_address()) {
+    metrics = address->target();
+    spdlog::info(base::logfmt("metrics", {{"address", *metrics}}));
+  }
+  data_dir.publish(targets, metrics, SystemClock().wall_ms());
+}
+
 void run_server(const Options& options) {
   umask(0077);                    // meshes and results are this user's alone
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is then told as a full disk
@@ -196,19 +229,7 @@ void run_server(const Options& options) {
   Signals signals;
   raise_file_limit();
   const DataDir data_dir(options.data_dir);
-  ServerOptions server_options;
-  server_options.data_dir = data_dir.path();
-  server_options.listen = listen_addresses(options, data_dir.path());
-  server_options.socket_mode = options.socket_mode;
-  server_options.tls = {options.tls_cert, options.tls_key, options.tls_client_ca};
-  server_options.insecure = options.insecure;
-  if (!options.metrics.empty()) server_options.metrics = wire::parse_address(options.metrics);
-  server_options.store.lease_ms = options.lease_ms;
-  server_options.store.report_interval_ms = options.report_interval_ms;
-  server_options.store.max_mesh_bytes = options.max_mesh_mb << 20;
-  server_options.store.owner_order = options.owner_order;
-  server_options.store.policy = options.policy;
-  Server server(server_options);
+  Server server(server_options(options, data_dir.path()));
   Supervisor supervisor(
       supervisor_options(options, server),
       [&](pid_t pid) { server.registry().add_supervised(static_cast<std::uint32_t>(pid)); },
@@ -223,19 +244,7 @@ void run_server(const Options& options) {
       });
   const Supervised until_the_end(supervisor);
   signals.begin_serving();
-  std::vector<std::string> targets;
-  for (const wire::Address& address : server.addresses()) {
-    targets.push_back(address.target());
-    spdlog::info(base::logfmt(
-        "listening",
-        {{"address", targets.back()}, {"version", wire::kVersion}, {"data_dir", data_dir.path()}}));
-  }
-  std::optional<std::string> metrics;
-  if (const auto address = server.metrics_address()) {
-    metrics = address->target();
-    spdlog::info(base::logfmt("metrics", {{"address", *metrics}}));
-  }
-  data_dir.publish(targets, metrics, SystemClock().wall_ms());
+  publish(data_dir, server);
   const Watchdog watchdog(nearest(server).target(), WatchdogOptions(), leave_if_deaf);
   base::notify_service_manager(base::ServiceState::kReady);
   try {

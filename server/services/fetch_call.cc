@@ -1,7 +1,6 @@
 #include "services/fetch_call.h"
 
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "calls/status.h"

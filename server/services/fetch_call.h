@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "services/artifact_waiters.h"
 #include "services/event_hub.h"

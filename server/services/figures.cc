@@ -1,7 +1,6 @@
 #include "services/figures.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include <grpcpp/grpcpp.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "affskel/v1/client_service.pb.h"

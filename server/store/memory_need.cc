@@ -4,7 +4,6 @@
 #include <bit>
 #include <limits>
 
-#include "wire/artifact_kinds.h"
 #include "wire/memory_sizes.h"
 
 namespace affskel::server {

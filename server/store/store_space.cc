@@ -10,7 +10,6 @@
 
 #include "base/logfmt.h"
 #include "base/mutex.h"
-#include "database/errors.h"
 #include "store/job_life.h"
 #include "store/space.h"
 #include "store/store_impl.h"

@@ -18,6 +18,9 @@ struct OwnersTurn {
   std::int64_t priority = 0;  ///< among the owner's own
   std::int64_t turn = 0;
 
+  static OwnersTurn of(const Statement& row) {
+    return {row.text(0), row.integer(1), row.integer(2), row.integer(3)};
+  }
   bool before(const OwnersTurn& other) const {
     return std::tie(other.rank, turn, owner, other.priority) <
            std::tie(rank, other.turn, other.owner, priority);
@@ -32,6 +35,9 @@ struct Candidate {
   std::string job;
   std::string owner;
 
+  static Candidate of(const Statement& row) {
+    return {row.integer(0), row.integer(1), row.integer(2), row.text(3), row.text(4)};
+  }
   bool before(const Candidate& other) const {
     return std::tie(turn, seq, id) < std::tie(other.turn, other.seq, other.id);
   }
@@ -53,49 +59,48 @@ void for_each_need(Database& db, const Seeker& seeker, bool on_request, Visit&& 
   }
 }
 
-std::optional<OwnersTurn> owner_in_turn(Database& db, const Seeker& seeker, bool on_request) {
-  std::optional<OwnersTurn> first;
+/// The first of what queries tell, one for each need.
+/// @param query its first row; of the need.
+template <typename Found, typename Query>
+std::optional<Found> first_of_needs(Database& db, const Seeker& seeker, bool on_request, const Query& query) {
+  std::optional<Found> first;
   for_each_need(db, seeker, on_request, [&](const Need& need) {
-    Statement row = db.query(
-        "SELECT owner, rank, priority, turn FROM queues WHERE on_request = ? AND needs_core = ?"
-        " AND needs_memory = ? ORDER BY rank DESC, turn, owner, priority DESC LIMIT 1",
-        on_request, need.core_version, need.memory);
+    Statement row = query(need);
     if (!row.step()) return;
-    OwnersTurn found{row.text(0), row.integer(1), row.integer(2), row.integer(3)};
+    Found found = Found::of(row);
     if (!first || found.before(*first)) first = std::move(found);
   });
   return first;
+}
+
+std::optional<OwnersTurn> owner_in_turn(Database& db, const Seeker& seeker, bool on_request) {
+  return first_of_needs<OwnersTurn>(db, seeker, on_request, [&](const Need& need) {
+    return db.query(
+        "SELECT owner, rank, priority, turn FROM queues WHERE on_request = ? AND needs_core = ?"
+        " AND needs_memory = ? ORDER BY rank DESC, turn, owner, priority DESC LIMIT 1",
+        on_request, need.core_version, need.memory);
+  });
 }
 
 /// The owner's highest priority among ready tasks of jobs, and its rank.
 std::optional<OwnersTurn> turn_of_owner(Database& db, const Seeker& seeker, const std::string& owner) {
-  std::optional<OwnersTurn> first;
-  for_each_need(db, seeker, false, [&](const Need& need) {
-    Statement row = db.query(
+  return first_of_needs<OwnersTurn>(db, seeker, false, [&](const Need& need) {
+    return db.query(
         "SELECT owner, rank, priority, turn FROM queues WHERE owner = ? AND on_request = 0 AND needs_core = ?"
         " AND needs_memory = ? ORDER BY priority DESC LIMIT 1",
         owner, need.core_version, need.memory);
-    if (!row.step()) return;
-    OwnersTurn found{row.text(0), row.integer(1), row.integer(2), row.integer(3)};
-    if (!first || found.before(*first)) first = std::move(found);
   });
-  return first;
 }
 
 std::optional<Candidate> first_of_owner(Database& db, const Seeker& seeker, bool on_request,
                                         const std::string& owner, std::int64_t priority) {
-  std::optional<Candidate> first;
-  for_each_need(db, seeker, on_request, [&](const Need& need) {
-    Statement row = db.query(
-        "SELECT id, turn, seq, job_id FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = ?"
-        " AND needs_core = ? AND needs_memory = ? AND priority = ? AND owner = ? ORDER BY turn, seq, id"
-        " LIMIT 1",
+  return first_of_needs<Candidate>(db, seeker, on_request, [&](const Need& need) {
+    return db.query(
+        "SELECT id, turn, seq, job_id, owner FROM tasks WHERE state = 'pending' AND parked = 0"
+        " AND on_request = ? AND needs_core = ? AND needs_memory = ? AND priority = ? AND owner = ?"
+        " ORDER BY turn, seq, id LIMIT 1",
         on_request, need.core_version, need.memory, priority, owner);
-    if (!row.step()) return;
-    Candidate found{row.integer(0), row.integer(1), row.integer(2), row.text(3), owner};
-    if (!first || found.before(*first)) first = std::move(found);
   });
-  return first;
 }
 
 /// A task of the job that the worker holds, if that is of its owner's highest priority, and this counts as
@@ -108,7 +113,7 @@ std::optional<Candidate> of_held_job(Database& db, const Seeker& seeker, const O
       " LIMIT 1",
       seeker.preferred_job, seeker.core_version, seeker.memory);
   if (!row.step()) return std::nullopt;
-  Candidate held{row.integer(0), row.integer(1), row.integer(2), row.text(3), row.text(4)};
+  Candidate held = Candidate::of(row);
   const std::int64_t priority = row.integer(5);
   const std::optional<OwnersTurn> own =
       held.owner == turn.owner ? turn : turn_of_owner(db, seeker, held.owner);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <random>
 #include <unordered_map>
 #include <unordered_set>

@@ -1,7 +1,6 @@
 #include "traffic/byte_stream.h"
 
 #include <openssl/ssl.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 
+#include "net/peer_has_ended.h"
 #include "net/read_some.h"
 
 namespace affskel::server {
@@ -41,10 +41,7 @@ class StreamOf : public ByteStream {
     co_await asio::async_write(stream_, bytes, use_awaitable);
   }
 
-  bool peer_has_ended() override {
-    pollfd socket{stream_.lowest_layer().native_handle(), POLLRDHUP, 0};
-    return poll(&socket, 1, 0) > 0;
-  }
+  bool peer_has_ended() override { return net::peer_has_ended(stream_.lowest_layer().native_handle()); }
 
   void end() override {
     error_code ignored;

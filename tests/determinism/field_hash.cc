@@ -87,10 +87,8 @@ std::uint64_t ridge_hash(const affskel::core::Solid& solid, const affskel::core:
                          const affskel::core::FrameField& field, unsigned threads) {
   using namespace affskel::core;
   const RidgeBasis basis = ridge_basis(solid, lattice, field, threads);
-  RidgeSheetOptions options;
-  options.basis = &basis;
   Hash hash;
-  const RidgeSheet ridge = ridge_sheet(solid, lattice, field, options);
+  const RidgeSheet ridge = ridge_sheet(solid, lattice, field, basis);
   add_sheet(ridge, hash);
   const CurveSkeleton curve = curve_skeleton(solid, lattice, basis, ridge);
   add_sheet(curve, hash);

@@ -65,9 +65,10 @@ Result measure(const std::string& solid, const std::string& operator_name, const
 
 std::vector<Result> measure_both(const std::string& solid, const Job& job, const Setting& setting) {
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
+  const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
   return {measure(solid, "`chords`", job,
                   core::chord_sheet(job.solid, job.lattice, field, {.over_set = job.over_set}), setting),
-          measure(solid, "`ridge`", job, core::ridge_sheet(job.solid, job.lattice, field), setting)};
+          measure(solid, "`ridge`", job, core::ridge_sheet(job.solid, job.lattice, field, basis), setting)};
 }
 
 core::Mesh elliptic_cylinder(std::uint32_t sides) {

@@ -24,9 +24,7 @@ CurveSkeleton curve_of(const Job& job) {
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
   const core::Stopwatch clock;
   const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
-  core::RidgeSheetOptions options;
-  options.basis = &basis;
-  const core::RidgeSheet ridge = core::ridge_sheet(job.solid, job.lattice, field, options);
+  const core::RidgeSheet ridge = core::ridge_sheet(job.solid, job.lattice, field, basis);
   const core::CurveSkeleton found = core::curve_skeleton(job.solid, job.lattice, basis, ridge);
   CurveSkeleton curve;
   curve.seconds = clock.seconds();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/affine_map.h"
+#include "core/mesh/box.h"
 #include "core/mesh/map_mesh.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/interior_points.h"

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/interior_points.h"
 #include "experiments.h"

@@ -51,7 +51,8 @@ Sheet chord_sheet_of(const Job& job) {
 
 Sheet ridge_sheet_of(const Job& job) {
   const InFrame in_frame(job);
-  const core::RidgeSheet found = core::ridge_sheet(job.solid, job.lattice, in_frame.field);
+  const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, in_frame.field);
+  const core::RidgeSheet found = core::ridge_sheet(job.solid, job.lattice, in_frame.field, basis);
   Sheet sheet;
   sheet.points = cloud_of(found.vertices, in_frame);
   sheet.mesh = {sheet.points.place, found.triangles};

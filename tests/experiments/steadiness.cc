@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "client/files/read/read_shape.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/interior_points.h"
 #include "core/quality/similarity.h"

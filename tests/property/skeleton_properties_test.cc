@@ -163,9 +163,7 @@ Topology topology(const core::SheetMesh& skeleton) {
 }
 
 core::RidgeSheet ridge_of(const core::ErodedSolid& eroded, const core::RidgeBasis& basis) {
-  core::RidgeSheetOptions options;
-  options.basis = &basis;
-  return core::ridge_sheet(eroded.solid, eroded.lattice, eroded.field, options);
+  return core::ridge_sheet(eroded.solid, eroded.lattice, eroded.field, basis);
 }
 
 RC_GTEST_PROP(SkeletonProperties, TopologyIsTheSolids, ()) {

@@ -20,8 +20,7 @@ core::ShockOperator core_operator(v1::Operator which) {
   if (which == v1::OPERATOR_UNSPECIFIED) return core::ShockOperator::kZuckerHummel;
   const std::optional<core::ShockOperator> found = core::shock_operator_named(wire::word(which));
   if (found) return *found;
-  throw core::CoreError(core::CoreError::Code::kBadInput,
-                        "this worker does not know the skeleton operator; update the worker");
+  core::refuse("this worker does not know the skeleton operator; update the worker");
 }
 
 std::vector<double> divergence_of(const FinishedField& field, core::ShockOperator which) {

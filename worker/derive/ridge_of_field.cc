@@ -17,8 +17,7 @@ core::RidgeSheet RidgeOfField::sheet(double threshold) const {
   core::RidgeSheetOptions options;
   options.context = field_.context();
   options.bounds = ridge_bounds(threshold);
-  options.basis = &basis_;
-  return core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), options);
+  return core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis_, options);
 }
 
 void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "affskel/v1/types.pb.h"
-#include "core/erosion/frame_field.h"
 #include "core/ridge/ridge_sheet.h"
 #include "derive/finished_field.h"
 

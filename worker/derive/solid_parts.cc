@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/none.h"
 #include "core/collapse/dual_complex.h"
 #include "core/curve/parted_surface.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -94,7 +95,7 @@ class Parts {
       const core::Vec3 p = to_mesh(surface_.mesh.points[a]), q = to_mesh(surface_.mesh.points[b]),
                        r = to_mesh(surface_.mesh.points[c]);
       const std::uint32_t point = surface_.point[t];
-      const std::uint32_t part = point != core::DualComplex::kNone
+      const std::uint32_t part = point != core::kNone
                                      ? points_[point]
                                      : graph_.part[index.find((1.0 / 3) * (p + (q + r))).number] + 1;
       const double area = 0.5 * core::norm(core::cross(q - p, r - p));
@@ -120,7 +121,7 @@ class Parts {
     std::vector<core::Vec3> inward;
     inward.reserve(surface_.point.size());
     for (const std::uint32_t point : surface_.point)
-      inward.push_back(point == core::DualComplex::kNone ? core::Vec3{} : field_.normal(point));
+      inward.push_back(point == core::kNone ? core::Vec3{} : field_.normal(point));
     core::ThicknessOptions options;
     options.near = 0.5 * field_.lattice().spacing / solid_.scale();
     options.threads = field_.threads();

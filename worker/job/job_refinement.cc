@@ -5,12 +5,13 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/none.h"
 #include "job/prepared_job.h"
 
 namespace affskel::worker {
 namespace {
 
-static_assert(core::LeastChord::kNone == wire::kNoSaddle, "a saddle that is none");
+static_assert(core::kNone == wire::kNoSaddle, "a saddle that is none");
 
 [[noreturn]] void refuse(const std::string& why) {
   throw core::CoreError(core::CoreError::Code::kInternal, "the stored refined field " + why);

@@ -13,8 +13,6 @@
 #include "core/infimum/refine.h"
 #include "core/solid/solid_frame.h"
 #include "core/text/off_file.h"
-#include "wire/limits.h"
-#include "wire/params.h"
 #include "wire/refined_record.h"
 #include "wire/words.h"
 
@@ -42,8 +40,7 @@ core::FrameKind frame_kind(v1::Frame frame) {
   if (frame == v1::FRAME_UNSPECIFIED) return core::FrameKind::kAxis;
   const std::string word = wire::word(frame);
   if (!word.empty()) return core::parse_frame(word);
-  throw core::CoreError(core::CoreError::Code::kBadInput,
-                        "frame " + std::to_string(frame) + " is not known to this worker");
+  core::refuse("frame " + std::to_string(frame) + " is not known to this worker");
 }
 
 core::DirectionSet take_directions(const core::Solid& solid, const std::string& spec,

@@ -23,8 +23,8 @@ inline constexpr LimitedWork kPreparing = {
 inline constexpr LimitedWork kDeriving = {"making this of the field", "--derive-limit",
                                           "the lattice is very fine"};
 
-/// The context of a task with a bound on its processor time: a small file can ask for days.  Processor time, for a worker that is suspended or shares its cores with others must not
-/// fail a job that is as good as any.  Any thread.
+/// The context of a task with a bound on its processor time: a small file can ask for days.  Processor time, for a
+/// worker that is suspended or shares its cores with others must not fail a job that is as good as any.  Any thread.
 class TaskLimit : public core::ExecutionContext {
  public:
   using Clock = std::function<std::chrono::nanoseconds()>;

@@ -4,10 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <condition_variable>
 #include <exception>
-#include <functional>
 #include <optional>
 #include <random>
 #include <set>

@@ -2,14 +2,16 @@
 
 #include <CLI/CLI.hpp>
 
-#include "client/base/mesh_extensions.h"
 #include "client/cli/value_checks.h"
+#include "core/files/read/parse_shape.h"
 
 namespace affskel::client {
 
 std::string mesh_kinds() {
-  return "Geomview OFF," + listed(std::span(kMeshExtensions).subspan(1)) +
-         ", also by gzip or zstd;\nvoxels in" + listed(kVoxelExtensions);
+  std::vector<std::string_view> others = core::mesh_extensions();
+  others.erase(others.begin());
+  return "Geomview OFF," + core::listed(others) + ", also by gzip or zstd;\nvoxels in" +
+         core::listed(core::voxel_extensions());
 }
 
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& what) {

@@ -1,6 +1,5 @@
 #include "client/files/write/single_precision.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>

@@ -7,8 +7,13 @@ import { bytes, count, counted, measure, typed } from './numbers.js';
 import { session } from './session.js';
 import { SubmitForm, field, jobName, kUsualPoints } from './submit_form.js';
 
-const kTypes = ['.off', '.ply', '.obj', '.stl', '.vtp', '.glb', '.gltf', '.3mf', '.xyz', '.csv', '.nrrd', '.mha', '.nii', '.gz', '.zst'];
-const kVoxels = /\.(nrrd|mha|nii)(\.gz|\.zst)?$/i;
+const fileTypes = () => [...session.mesh_files, ...session.voxel_files, ...session.packed_files];
+
+/** @param {string} name of a file */
+function isVoxels(name) {
+  const ending = (type) => ['', ...session.packed_files].some((packed) => name.toLowerCase().endsWith(type + packed));
+  return session.voxel_files.some(ending);
+}
 
 function meshFacts(f) {
   const size = f.bbox_size ? [['Size', f.bbox_size.map(measure).join(' × ')]] : [];
@@ -38,12 +43,12 @@ export class NewJob {
   /** @param {string} [job] whose mesh it is, to be computed with other parameters */
   constructor(job) {
     this.title = 'New job';
-    this.file = h('input', { id: 'file', type: 'file', accept: kTypes.join(','), multiple: true, class: 'visually-hidden' });
+    this.file = h('input', { id: 'file', type: 'file', accept: fileTypes().join(','), multiple: true, class: 'visually-hidden' });
     this.drop = h(
       'label',
       { class: 'drop', for: 'file' },
       h('strong', {}, 'Drop a mesh here, or choose a file'),
-      h('span', { class: 'small' }, `A closed surface as ${kTypes.join(', ')}, at most ${bytes(session.max_mesh_bytes)}; several, or folders of them, become a job each`),
+      h('span', { class: 'small' }, `A closed surface as ${fileTypes().join(', ')}, at most ${bytes(session.max_mesh_bytes)}; several, or folders of them, become a job each`),
     );
     this.sent = h('progress', { max: 1, value: 0, hidden: true, 'aria-label': 'Upload' });
     this.status = h('p', { class: 'small', role: 'status' });
@@ -75,7 +80,7 @@ export class NewJob {
     this.drop.addEventListener('dragleave', over(false));
     this.drop.addEventListener('drop', (event) => {
       over(false)(event);
-      filesIn(event.dataTransfer, kTypes).then((files) => this.takeAll(files));
+      filesIn(event.dataTransfer, fileTypes()).then((files) => this.takeAll(files));
     });
   }
 
@@ -97,7 +102,7 @@ export class NewJob {
 
   /** @param {File[]} files one to be looked at, several to be computed as they are */
   async takeAll(files) {
-    if (files.length === 0) this.complain(`There is no file of the kinds ${kTypes.join(', ')}.`);
+    if (files.length === 0) this.complain(`There is no file of the kinds ${fileTypes().join(', ')}.`);
     if (files.length === 1) await this.take(files[0]);
     if (files.length < 2) return;
     this.complain('');
@@ -170,9 +175,9 @@ export class NewJob {
         this.show(mesh, file, asked, await loadedPicture(mesh));
         return;
       }
-      const first = kVoxels.test(file.name) && asked.isovalue === undefined && mesh.error.includes('isovalue');
+      const first = isVoxels(file.name) && asked.isovalue === undefined && mesh.error.includes('isovalue');
       if (!first) this.complain(`${file.name} cannot be read: ${mesh.error}`);
-      if (kVoxels.test(file.name)) this.askIsovalue(file, asked, first ? `${file.name} ${mesh.error}.` : '');
+      if (isVoxels(file.name)) this.askIsovalue(file, asked, first ? `${file.name} ${mesh.error}.` : '');
     } catch (error) {
       this.complain(`${file.name} cannot be read: ${error.message}`);
     }

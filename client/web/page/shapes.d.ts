@@ -19,6 +19,9 @@ interface Session {
   usual?: any; // words of operator, frame and minimum
   sheets?: any; // words of operators that give sheets and curves
   artefacts?: any;
+  mesh_files?: any; // extensions of files, of which a page sends one for each mesh
+  voxel_files?: any;
+  packed_files?: any;
 }
 
 // What is seen at an address; one that asks is asked again and again, and given how.

@@ -85,7 +85,7 @@ bool is_singular(const AffineMap& map) {
 
 void require_regular(const AffineMap& map) {
   if (is_singular(map)) {
-    throw CoreError(CoreError::Code::kBadInput, "the map is singular or out of range: it has no inverse");
+    refuse("the map is singular or out of range: it has no inverse");
   }
 }
 

@@ -10,39 +10,35 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 
 namespace affskel::core {
-
-/// No node, source or step.
-inline constexpr std::uint32_t kNoNode = 0xFFFFFFFFU;
 
 /// The cheapest way from every node of a graph to one of several sources, from all of them at once (Dijkstra
 /// 1959).  Of equally cheap ways the first one found stays: nodes are left by cost, then by number.
 struct CheapestWays {
-  std::vector<std::uint32_t> source;  ///< per node: name of the source, kNoNode where no way leads to one
+  std::vector<std::uint32_t> source;  ///< per node: name of the source, kNone where no way leads to one
   std::vector<double> cost;           ///< per node: of its way; infinity where there is none
-  std::vector<std::uint32_t>
-      step;  ///< per node: the last step to it, as `steps` names it; kNoNode in a source
+  std::vector<std::uint32_t> step;  ///< per node: the last step to it, as `steps` names it; kNone in a source
 
-  /// @param sources per node: the name of the source that it belongs to, or kNoNode.
+  /// @param sources per node: the name of the source that it belongs to, or kNone.
   explicit CheapestWays(std::vector<std::uint32_t> sources)
       : source(std::move(sources)),
         cost(source.size(), std::numeric_limits<double>::infinity()),
-        step(source.size(), kNoNode) {
+        step(source.size(), kNone) {
     for (std::size_t node = 0; node < source.size(); ++node)
-      if (source[node] != kNoNode) cost[node] = 0;
+      if (source[node] != kNone) cost[node] = 0;
   }
 
   /// Finds the ways.
-  /// @param steps steps(node, go) calls go(to, cost, name) for every step from a node, costs >= 0; go says
-  ///   whether that is the cheapest way to `to` so far.  Mostly a step's name is the node that it leaves.
-  /// @param starts starts(node): whether ways lead on from a node of a source; the others wait to be met.
-  template <class Steps, class Starts>
-  void find(const Steps& steps, const Starts& starts) {
+  /// @param steps steps(node, go) calls go(to, cost, name) for every step from a node, costs >= 0.  Mostly a
+  ///   step's name is the node that it leaves.
+  template <class Steps>
+  void find(const Steps& steps) {
     using Item = std::pair<double, std::uint32_t>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> front;
     for (std::uint32_t node = 0; node < source.size(); ++node)
-      if (source[node] != kNoNode && starts(node)) front.push({0, node});
+      if (source[node] != kNone) front.push({0, node});
     while (!front.empty()) {
       const double reached = front.top().first;
       const std::uint32_t node = front.top().second;
@@ -50,18 +46,13 @@ struct CheapestWays {
       if (reached > cost[node]) continue;
       steps(node, [&](std::uint32_t to, double further, std::uint32_t name) {
         const double there = reached + further;
-        if (!(there < cost[to])) return false;
+        if (!(there < cost[to])) return;
         cost[to] = there;
         source[to] = source[node];
         step[to] = name;
         front.push({there, to});
-        return true;
       });
     }
-  }
-  template <class Steps>
-  void find(const Steps& steps) {
-    find(steps, [](std::uint32_t) { return true; });
   }
 };
 

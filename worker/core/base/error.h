@@ -28,4 +28,9 @@ class CoreError : public std::runtime_error {
   std::uint64_t line_;
 };
 
+/// Refuses a mesh, a file or a parameter: @throws CoreError kBadInput.
+[[noreturn]] inline void refuse(const std::string& message, std::uint64_t line = 0) {
+  throw CoreError(CoreError::Code::kBadInput, message, line);
+}
+
 }  // namespace affskel::core

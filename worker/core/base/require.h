@@ -6,7 +6,7 @@ namespace affskel::core {
 
 /// Checks an option: @throws CoreError kBadInput with the message unless low <= value <= high; NaN never is.
 inline void require_within(double value, double low, double high, const char* message) {
-  if (!(value >= low && value <= high)) throw CoreError(CoreError::Code::kBadInput, message);
+  if (!(value >= low && value <= high)) refuse(message);
 }
 
 }  // namespace affskel::core

@@ -4,8 +4,9 @@
 
 namespace affskel::core {
 
-/// What the sheet of `chords` is made with, found by experiments; only tests take other values.  In
-/// the notation of chord_shocks.h, chord_turns.h and chord_pruning.h; reasons: README.md in worker/core.
+/// What the sheet of `chords` is made with, found by experiments; tests take other values, and the infimum (see
+/// constants_of_infimum()).  In the notation of chord_shocks.h, chord_turns.h and chord_pruning.h; reasons: README.md
+/// in worker/core.
 struct ChordConstants {
   // Candidates.
   double min_strength = 0.05;  ///< least relative strength r, 0 .. 1

@@ -14,6 +14,7 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/base/require.h"
 #include "core/chords/chord_edge.h"
 #include "core/chords/chord_squares.h"
@@ -41,7 +42,7 @@ class Paths {
     friend bool operator<(const Path& p, const Path& q) { return p.cost < q.cost; }
   };
 
-  // piece: per cell, kNoNode where there is none.
+  // piece: per cell, kNone where there is none.
   Paths(const std::vector<ChordShock>& shocks, const EdgeCells& cells, std::vector<std::uint32_t> piece)
       : shocks_(shocks), cells_(cells), ways_(std::move(piece)) {
     ways_.find([&](std::uint32_t cell, const auto& go) {
@@ -62,7 +63,7 @@ class Paths {
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       for (std::uint32_t a : cells_.ring[s]) {
         for (std::uint32_t b : cells_.ring[s]) {
-          if (a < b && piece(a) != kNoNode && piece(b) != kNoNode && piece(a) != piece(b))
+          if (a < b && piece(a) != kNone && piece(b) != kNone && piece(a) != piece(b))
             paths.push_back({ways_.cost[a] + cost(shocks_[s]) + ways_.cost[b], s, a, b});
         }
       }
@@ -76,7 +77,7 @@ class Paths {
   void for_each_shock(const Path& path, Visit visit) const {
     visit(path.shock);
     for (const std::uint32_t end : {path.a, path.b}) {
-      for (std::uint32_t step = ways_.step[end]; step != kNoNode;) {
+      for (std::uint32_t step = ways_.step[end]; step != kNone;) {
         visit(step / 4);
         step = ways_.step[cells_.ring[step / 4][step % 4]];
       }
@@ -99,7 +100,7 @@ class Pruning {
         constants_(constants),
         cells_(cells_of(lattice, parts, shocks)),
         pieces_(shocks.size()),
-        owner_(shocks.size(), kNoNode) {
+        owner_(shocks.size(), kNone) {
     const double cell = lattice.spacing * lattice.spacing * lattice.spacing;
     for (std::uint32_t p = 0; p < parts.count(); ++p) {
       min_erosion_.push_back(constants.min_erosion * (parts.points(p) * cell));
@@ -138,24 +139,24 @@ class Pruning {
 
   void join_touching() {
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
-      std::uint32_t first = kNoNode;
+      std::uint32_t first = kNone;
       for (std::uint32_t s : cells_.edges_of(cell)) {
         if (!strong(s)) continue;
-        if (first == kNoNode) first = s;
+        if (first == kNone) first = s;
         pieces_.unite(first, s);
       }
     }
   }
 
-  bool kept(std::uint32_t s) const { return owner_[s] != kNoNode; }
+  bool kept(std::uint32_t s) const { return owner_[s] != kNone; }
 
-  // Per cell the piece of its shocks; piece_of gives a shock's piece or kNoNode.
+  // Per cell the piece of its shocks; piece_of gives a shock's piece or kNone.
   template <class PieceOf>
   std::vector<std::uint32_t> pieces_by_cell(PieceOf piece_of) {
-    std::vector<std::uint32_t> piece(cells_.size(), kNoNode);
+    std::vector<std::uint32_t> piece(cells_.size(), kNone);
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       const std::uint32_t p = piece_of(s);
-      if (p == kNoNode) continue;
+      if (p == kNone) continue;
       for (std::uint32_t cell : cells_.ring[s]) piece[cell] = p;
     }
     return piece;
@@ -163,7 +164,7 @@ class Pruning {
 
   void keep_significant() {
     const Paths paths(shocks_, cells_,
-                      pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNoNode; }));
+                      pieces_by_cell([&](std::uint32_t s) { return strong(s) ? pieces_.find(s) : kNone; }));
     std::vector<Paths::Path> used;
     paths.join(pieces_, [&](const Paths::Path& path) {
       if (path.cost > constants_.near_cost) return false;
@@ -246,7 +247,7 @@ class Pruning {
   const ChordConstants& constants_;
   const EdgeCells cells_;
   DisjointSets pieces_;               // of shocks; the least member stands for its piece
-  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNoNode if dropped
+  std::vector<std::uint32_t> owner_;  // per shock: a shock of the piece it is kept with, kNone if dropped
   std::vector<double> min_erosion_;   // per part
   SignificantShocks result_;
 };

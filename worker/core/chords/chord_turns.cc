@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/none.h"
 #include "core/base/unit.h"
 #include "core/chords/chord_edge.h"
 #include "core/contour/edge_cells.h"
@@ -35,7 +36,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 // Edges to either side of a peak's own.  A wider band belongs to a depth of 184 spacings, as in a body of a
 // billion sample points, or to chords through a neck, whose volume is mostly far away.
 constexpr double kMaxReach = 64;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/collapse/collapsing.h"
 
 namespace affskel::core {
@@ -26,8 +27,8 @@ class Order {
     double sum = static_cast<double>(way_[cube]), count = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::uint32_t digit = DualComplex::digit(place, axis);
-      const std::uint32_t beside = digit == 1 ? DualComplex::kNone : complex_.neighbour(cube, axis, digit);
-      if (beside == DualComplex::kNone) continue;
+      const std::uint32_t beside = digit == 1 ? kNone : complex_.neighbour(cube, axis, digit);
+      if (beside == kNone) continue;
       sum += static_cast<double>(way_[beside]);
       ++count;
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/none.h"
 #include "core/lattice/lattice.h"
 #include "core/solid/betti_numbers.h"
 
@@ -31,7 +32,7 @@ class DualComplex {
   /// 32 * cube + 9 * digit 0 + 3 * digit 1 + digit 2.
   using Cell = std::uint64_t;
 
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kNone = core::kNone;
   static constexpr std::uint32_t kCube = 13;         ///< the place of the cube itself
   static constexpr std::uint32_t kUpperVertex = 26;  ///< of the vertex at the upper end of all axes
   static constexpr std::array<std::uint32_t, 3> kWeight{9, 3, 1};
@@ -253,11 +254,9 @@ double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value&
     for (std::uint32_t left = across; left != 0; left &= left - 1) {
       const auto axis = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t digit = DualComplex::digit(place, axis);
-      if (kContinued == Continued::kAcrossBoundary &&
-          complex.neighbour(cube, axis, digit) != DualComplex::kNone)
-        continue;
+      if (kContinued == Continued::kAcrossBoundary && complex.neighbour(cube, axis, digit) != kNone) continue;
       const std::uint32_t behind = complex.neighbour(cube, axis, 2 - digit);
-      if (behind != DualComplex::kNone) sum += 0.5 * (here - value(behind));
+      if (behind != kNone) sum += 0.5 * (here - value(behind));
     }
   }
   return sum / static_cast<double>(star.count);
@@ -296,7 +295,7 @@ class CellBytes {
       bool inner = true;
       for (std::uint32_t cube = first; cube < std::min(first + kGroup, complex.cubes()); ++cube)
         for (std::size_t axis = 0; axis < 3; ++axis)
-          inner = inner && complex.neighbour(cube, axis, 0) != DualComplex::kNone;
+          inner = inner && complex.neighbour(cube, axis, 0) != kNone;
       groups_.push_back({rows, inner ? kUpper : 27});
       rows += groups_.back().places;
     }

@@ -16,7 +16,7 @@ std::vector<std::uint32_t> realms(const DualComplex& complex, std::span<const Re
     std::uint32_t cube = 0, seed = 0;
   };
   std::vector<float> way(complex.cubes(), kNoWay);
-  std::vector<std::uint32_t> realm(complex.cubes(), DualComplex::kNone);
+  std::vector<std::uint32_t> realm(complex.cubes(), kNone);
   float greatest = 0;
   for (const RealmSeed& seed : seeds) greatest = std::max(greatest, seed.radius);
   BucketQueue<Step> front;
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> realms(const DualComplex& complex, std::span<const Re
   for (std::uint32_t n = 0; n < seeds.size(); ++n) reach(seeds[n].cube, greatest - seeds[n].radius, n);
   StopCheck stop(context);
   for (Step at; front.pop(at); stop.did(100)) {
-    if (realm[at.cube] != DualComplex::kNone) continue;
+    if (realm[at.cube] != kNone) continue;
     realm[at.cube] = at.seed;
     complex.for_each_step(at.cube, [&](std::uint32_t to, std::uint32_t steps) {
       reach(to, at.way + kStepLength[steps], at.seed);

@@ -7,13 +7,12 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
+#include "core/base/none.h"
 
 namespace affskel::core {
 namespace {
 
 using Cell = DualComplex::Cell;
-
-constexpr std::uint32_t kNoEdge = 0xFFFFFFFFU;
 
 class Graph {
  public:
@@ -44,24 +43,24 @@ class Graph {
     DisjointSets forest(vertices_.size());
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       if (!forest.unite(edges_[e][0], edges_[e][1])) chords_.push_back(e);
-    way_.assign(vertices_.size(), kNoEdge);
+    way_.assign(vertices_.size(), kNone);
     taken_.assign(edges_.size(), 0);
   }
 
   // Takes an edge of the shortest loop out. @return the loop; empty when there is none.
   CellLoop take_shortest() {
     CellLoop best;
-    std::uint32_t chord = kNoEdge;
+    std::uint32_t chord = kNone;
     for (const std::uint32_t e : chords_) {
       if (taken_[e]) continue;
       throw_if_stopped(context_);
       CellLoop loop =
-          shortest_through(e, best.edges.empty() ? kNoEdge : static_cast<std::uint32_t>(best.edges.size()));
+          shortest_through(e, best.edges.empty() ? kNone : static_cast<std::uint32_t>(best.edges.size()));
       if (loop.edges.empty()) continue;
       best = std::move(loop);
       chord = e;
     }
-    if (chord != kNoEdge) taken_[chord] = 1;
+    if (chord != kNone) taken_[chord] = 1;
     return best;
   }
 
@@ -73,18 +72,18 @@ class Graph {
     std::vector<std::uint32_t> seen{from};
     way_[from] = edge;
     std::size_t next = 0;
-    for (std::uint32_t steps = 2; steps < most && next < seen.size() && way_[to] == kNoEdge; ++steps) {
+    for (std::uint32_t steps = 2; steps < most && next < seen.size() && way_[to] == kNone; ++steps) {
       for (const std::size_t end = seen.size(); next < end; ++next) {
         for (const std::uint32_t e : at_[seen[next]]) {
           const std::uint32_t there = other_end(e, seen[next]);
-          if (taken_[e] || e == edge || way_[there] != kNoEdge) continue;
+          if (taken_[e] || e == edge || way_[there] != kNone) continue;
           way_[there] = e;
           seen.push_back(there);
         }
       }
     }
     CellLoop loop;
-    if (way_[to] != kNoEdge) {  // way_[from] is the edge itself
+    if (way_[to] != kNone) {  // way_[from] is the edge itself
       std::uint32_t at = from;
       do {
         loop.vertices.push_back(vertices_[at]);
@@ -92,7 +91,7 @@ class Graph {
         at = other_end(way_[at], at);
       } while (at != from);
     }
-    for (const std::uint32_t vertex : seen) way_[vertex] = kNoEdge;
+    for (const std::uint32_t vertex : seen) way_[vertex] = kNone;
     return loop;
   }
 

@@ -10,12 +10,10 @@
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
 #include "core/curve/limb_forks.h"
-#include "core/curve/limb_sections.h"
 #include "core/curve/line_ends.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/solid/solid_membership.h"
-#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 namespace {
@@ -34,7 +32,7 @@ constexpr double kDirection = 1;   // radii: over so long a stretch on both side
 constexpr double kFitted = 5;      // vertices that tell of a parabola
 // Radius of the largest disc about the centroid over that of a disc as large: a section that is rounder has a middle, in
 // one that is flatter the line stays in the middle of the sheet.  An ellipse 2:1 has 0.71.
-constexpr double kRound = 0.75, kFlat = 0.55;
+constexpr double kRoundSection = 0.75, kFlatSection = 0.55;
 // How strongly a joint is held where it is, beside the lines of its limbs: along lines that go straight on.
 constexpr double kHold = 0.02;
 
@@ -74,9 +72,9 @@ class CentreLines {
   CentreLines(const CentreLinesInput& input, std::vector<Vec3>& places)
       : input_(input),
         places_(places),
-        sections_(input.surface),
-        distance_(input.surface),
-        membership_(input.surface),
+        sections_(input.surface.sections),
+        distance_(input.surface.distance),
+        membership_(input.surface.mesh),
         lines_(polylines(places.size(), input.segments)),
         neighbours_(neighbours(places.size(), input.segments)) {}
 
@@ -130,9 +128,7 @@ class CentreLines {
     joints_ = joint_balls(places_, lines_, thickness_);
   }
 
-  double thickness_at(const Vec3& at, double ball) const {
-    return sections_.thickness(at, LimbSections::kSeen * ball);
-  }
+  double thickness_at(const Vec3& at, double ball) const { return sections_.thickness(at, ball); }
 
   // A vertex goes to a place, or as near to it as its ball reaches: what stays in a ball in the solid never leaves the
   // solid.
@@ -144,11 +140,11 @@ class CentreLines {
 
   // How many vertices from an end of a line lie near the joint there; 0 where none is.
   std::size_t in_joint(const std::vector<std::uint32_t>& line, bool from_last) const {
-    const auto at = [&](std::size_t n) { return line[from_last ? line.size() - 1 - n : n]; };
+    const auto at = [&](std::size_t n) { return point_from(from_last, line, n); };
     if (!is_joint(at(0))) return 0;
     const JointBalls& joint = joints_[at(0)];
     std::size_t count = 1;
-    while (count < line.size() && joint.hold(places_[at(count)], JointBalls::kNear)) ++count;
+    while (count < line.size() && joint.hold(places_[at(count)])) ++count;
     return count;
   }
 
@@ -187,7 +183,7 @@ class CentreLines {
     shift.ball = thickness_[line[n]];
     const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
     if (across == Vec3{} || !(shift.ball > 0)) return shift;
-    const LimbSection section = sections_.at(at, across, LimbSections::kSeen * shift.ball);
+    const LimbSection section = sections_.at(at, across, shift.ball);
     const double away = norm(section.centre - at);
     if (away >= shift.ball && !inside(section.centre)) return shift;
     shift.way = section.centre - at;
@@ -199,10 +195,10 @@ class CentreLines {
   // the vertex, `away` from there, by as much at most, which is mostly enough to know.
   double weight_of(const LimbSection& section, double ball, double away) const {
     const double size = std::max(section.radius, ball);
-    if (ball - away >= kRound * size) return 1;
-    if (ball + away <= kFlat * size) return 0;
+    if (ball - away >= kRoundSection * size) return 1;
+    if (ball + away <= kFlatSection * size) return 0;
     const double roundness = distance_.nearest(section.centre) / size;
-    return std::clamp((roundness - kFlat) / (kRound - kFlat), 0.0, 1.0);
+    return std::clamp((roundness - kFlatSection) / (kRoundSection - kFlatSection), 0.0, 1.0);
   }
 
   // Each goes to a parabola through what lies within a radius on either side, so that no bend is narrower, and by the mean
@@ -320,10 +316,10 @@ class CentreLines {
   }
 
   // Of a limb where it leaves its joint.
-  double thickness_of(const LimbFork::End& limb) const {
+  double thickness_of(const LineEnd& limb) const {
     const auto& line = lines_[limb.line];
     const std::size_t n = std::min(in_joint(line, limb.back), line.size() - 1);
-    return thickness_[line[limb.back ? line.size() - 1 - n : n]];
+    return thickness_[point_from(limb.back, line, n)];
   }
 
   // How far along a direction a joint lies from where it began, that limbs part as far from it as they are thick.
@@ -371,8 +367,8 @@ class CentreLines {
 
   const CentreLinesInput& input_;
   std::vector<Vec3>& places_;
-  const LimbSections sections_;
-  const DistanceToMesh distance_;
+  const LimbSections& sections_;
+  const DistanceToMesh& distance_;
   const SolidMembership membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Adjacency neighbours_;

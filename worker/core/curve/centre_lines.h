@@ -5,12 +5,13 @@
 
 #include "core/base/execution_context.h"
 #include "core/base/vec3.h"
+#include "core/curve/limb_surface.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
 
 struct CentreLinesInput {
-  const Mesh& surface;                ///< of the solid
+  const LimbSurface& surface;         ///< of the solid
   std::span<const Segment> segments;  ///< of the lines, as for polylines()
   /// Per vertex: where the end of a line is known to lie about, else nothing is known.
   std::span<const Vec3> tip;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/groups.h"
+#include "core/base/none.h"
 #include "core/base/plain_math.h"
 #include "core/base/unit.h"
 #include "core/mesh/polylines.h"
@@ -21,14 +22,14 @@ constexpr double kStretch = 4;
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
 
-constexpr std::uint32_t kNoBranch = std::numeric_limits<std::uint32_t>::max();
-
 class GraphOfCurve {
  public:
   GraphOfCurve(std::span<const Vec3> places, std::span<const Segment> segments,
                std::span<const double> radius, std::span<const double> share)
-      : places_(places), radius_(radius), share_(share), ends_(places.size(), 0) {
-    for (auto& line : polylines(places.size(), segments)) add(std::move(line));
+      : places_(places), radius_(radius), share_(share) {
+    auto lines = polylines(places.size(), segments);
+    ends_ = ends_of(places.size(), lines);
+    for (auto& line : lines) add(std::move(line));
     std::vector<char> used(places.size(), 0);
     for (const CurveBranch& branch : graph_.branches)
       for (const std::uint32_t v : branch.vertices) used[v] = 1;
@@ -55,10 +56,6 @@ class GraphOfCurve {
  private:
   void add(std::vector<std::uint32_t> line) {
     CurveBranch branch;
-    if (line.size() > 1) {
-      ++ends_[line.front()];
-      ++ends_[line.back()];
-    }
     branch.vertices = std::move(line);
     graph_.branches.push_back(std::move(branch));
   }
@@ -73,7 +70,7 @@ class GraphOfCurve {
   // Where branches meet the heaviest has the vertex, and what of the others from there on has no share.
   void give_vertices() {
     std::vector<double> within(graph_.branches.size(), 0);
-    graph_.part.assign(places_.size(), kNoBranch);
+    graph_.part.assign(places_.size(), kNone);
     for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
       if (!inner) return;
       within[b] += share_[v];
@@ -82,8 +79,7 @@ class GraphOfCurve {
     for_each_vertex([&](std::uint32_t b, std::uint32_t v, bool inner) {
       if (inner) return;
       std::uint32_t& owner = graph_.part[v];
-      if (owner == kNoBranch || graph_.branches[b].vertices.size() == 1 || within[b] > within[owner])
-        owner = b;
+      if (owner == kNone || graph_.branches[b].vertices.size() == 1 || within[b] > within[owner]) owner = b;
     });
     const std::vector<std::uint32_t> owner = graph_.part;
     for (std::uint32_t b = 0; b < graph_.branches.size(); ++b)
@@ -94,7 +90,7 @@ class GraphOfCurve {
 
   void give_joint(std::uint32_t b, bool from_last, std::span<const std::uint32_t> owner) {
     const auto& vertices = graph_.branches[b].vertices;
-    const auto at = [&](std::size_t n) { return vertices[from_last ? vertices.size() - 1 - n : n]; };
+    const auto at = [&](std::size_t n) { return point_from(from_last, vertices, n); };
     if (ends_[at(0)] < 3) return;
     for (std::size_t n = 1; n + 1 < vertices.size() && share_[at(n)] == 0; ++n)
       graph_.part[at(n)] = owner[at(0)];
@@ -212,8 +208,7 @@ class GraphOfCurve {
     branch.from = node(vertices.front());
     branch.to = node(vertices.back());
     const auto line = outside_bodies(branch);
-    for (std::size_t n = 1; n < line.size(); ++n)
-      branch.length += norm(places_[line[n]] - places_[line[n - 1]]);
+    branch.length = length_of(places_, line);
     branch.straight_length = norm(places_[line.back()] - places_[line.front()]);
     measure_radius(branch);
   }
@@ -257,7 +252,7 @@ class GraphOfCurve {
   Vec3 place_along(const CurveBranch& branch, bool from_last, double way) const {
     const auto line = outside_bodies(branch);
     const std::size_t count = line.size();
-    const auto at = [&](std::size_t n) { return places_[line[from_last ? count - 1 - n : n]]; };
+    const auto at = [&](std::size_t n) { return places_[point_from(from_last, line, n)]; };
     for (std::size_t n = 1; n < count; ++n) {
       const double length = norm(at(n) - at(n - 1));
       if (way <= length && length > 0) return at(n - 1) + (way / length) * (at(n) - at(n - 1));
@@ -278,7 +273,7 @@ class GraphOfCurve {
   std::uint32_t beside(std::uint32_t which, std::uint32_t vertex) const {
     const auto at = at_vertex_[vertex];
     const auto other = std::find_if(at.begin(), at.end(), [&](std::uint32_t b) { return b != which; });
-    return other == at.end() ? kNoBranch : *other;
+    return other == at.end() ? kNone : *other;
   }
 
   // From the heavier of its two joints.
@@ -294,7 +289,7 @@ class GraphOfCurve {
     CurveBranch& branch = graph_.branches[which];
     branch.angle = std::numeric_limits<double>::quiet_NaN();
     const std::uint32_t other = beside(which, branch.vertices.front());
-    if (other == kNoBranch || branch.kind == BranchKind::kPoint) return;
+    if (other == kNone || branch.kind == BranchKind::kPoint) return;
     const CurveBranch& on = graph_.branches[other];
     const Vec3 way = direction(branch, false), rest = direction(on, on.from != branch.from);
     branch.angle = 180 / std::numbers::pi * plain_angle(norm(cross(way, rest)), dot(way, rest));

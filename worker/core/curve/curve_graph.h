@@ -38,8 +38,8 @@ struct CurveGraph {
   /// the order of their mean places, along the axis in which these are farthest apart: the two arms of a body do not
   /// change places with noise.
   std::vector<CurveBranch> branches;
-  /// Per vertex: its branch; where some meet, the heaviest, or the body that the place is, which also has what of the others has no share from there on: a
-  /// limb begins where it leaves the trunk, see LimbTubes.
+  /// Per vertex: its branch.  Where branches meet, the heaviest, or the body if there is one; it also has the vertices
+  /// of the others up to the first that has a share: a limb begins where it leaves the trunk, see limb_tubes().
   std::vector<std::uint32_t> part;
 
   static constexpr double kAboutEqual = 0.95;

@@ -8,6 +8,7 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/base/require.h"
 #include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
@@ -18,6 +19,7 @@
 #include "core/curve/limb_hubs.h"
 #include "core/curve/limb_radii.h"
 #include "core/curve/limb_sections.h"
+#include "core/curve/limb_surface.h"
 #include "core/curve/limb_tubes.h"
 #include "core/curve/line_ends.h"
 #include "core/curve/pruned_lines.h"
@@ -123,7 +125,7 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
 void give_the_rest(const Lattice& lattice, CurveSkeleton& curve) {
   std::vector<std::uint32_t> rest;
   for (std::uint32_t p = 0; p < curve.nearest.size(); ++p)
-    if (curve.nearest[p] == DualComplex::kNone) rest.push_back(p);
+    if (curve.nearest[p] == kNone) rest.push_back(p);
   if (rest.empty()) return;
   const std::vector<Vec3> places = positions(curve);
   const PointIndex index(places);
@@ -134,7 +136,7 @@ void give_the_rest(const Lattice& lattice, CurveSkeleton& curve) {
 
 // Per vertex of the ridge: that of the curve which is nearest along it.
 std::vector<std::uint32_t> nearest_on_curve(const RidgeSheet& ridge, std::span<const std::uint32_t> lines) {
-  std::vector<std::uint32_t> sources(ridge.vertices.size(), kNoNode);
+  std::vector<std::uint32_t> sources(ridge.vertices.size(), kNone);
   for (std::uint32_t v = 0; v < lines.size(); ++v) sources[lines[v]] = v;
   std::vector<Segment> edges = ridge.segments;
   for (const auto& [a, b, c] : ridge.triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
@@ -156,7 +158,7 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
   const std::vector<std::uint32_t> on_curve = nearest_on_curve(ridge, lines);
   curve.nearest = realms(basis.complex, seeds, context);
   for (std::uint32_t& nearest : curve.nearest)
-    if (nearest != DualComplex::kNone) nearest = on_curve[nearest];
+    if (nearest != kNone) nearest = on_curve[nearest];
 }
 
 // @param places per vertex of the ridge.
@@ -175,16 +177,15 @@ Mesh surface_in_frame(const Solid& solid, const Lattice& lattice) {
 }
 
 // Where lines run, instead of the distance to the surface, which falls by two standard deviations of noise.
-std::vector<double> thickness_along(const Mesh& surface, const SheetLines& lines,
+std::vector<double> thickness_along(const LimbSections& sections, const SheetLines& lines,
                                     std::span<const Vec3> places, std::span<const double> balls) {
-  const LimbSections sections(surface);
   std::vector<double> thickness(balls.begin(), balls.end());
   for (const std::uint32_t v : lines.vertices)
-    if (balls[v] > 0) thickness[v] = sections.thickness(places[v], LimbSections::kSeen * balls[v]);
+    if (balls[v] > 0) thickness[v] = sections.thickness(places[v], balls[v]);
   return thickness;
 }
 
-void move_to_middle(const Mesh& surface, const Lattice& lattice, const LimbEnds& ends,
+void move_to_middle(const LimbSurface& surface, const Lattice& lattice, const LimbEnds& ends,
                     std::span<const std::uint32_t> lines, CurveSkeleton& curve, ExecutionContext* context) {
   std::vector<Vec3> places = positions(curve), tips;
   std::vector<char> has_tip;
@@ -225,9 +226,10 @@ void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& c
 
 // Of sections across lines, which have their directions by what lies in balls about the vertices.
 std::vector<double> areas_of(const LimbSections& sections, std::span<const Vec3> places,
-                             std::span<const double> balls, std::span<const Segment> segments) {
+                             std::span<const double> balls,
+                             std::span<const std::vector<std::uint32_t>> lines) {
   std::vector<double> areas(places.size(), 0);
-  for (const auto& line : polylines(places.size(), segments)) {
+  for (const auto& line : lines) {
     for (std::size_t n = 0; n < line.size(); ++n) {
       const Vec3 across = direction_in_ball(places, line, n, balls[line[n]]);
       if (across != Vec3{}) areas[line[n]] = sections.area(places[line[n]], across);
@@ -251,29 +253,26 @@ std::vector<char> vertices_in_joints(std::span<const Vec3> places,
 }
 
 // In the coordinates of the mesh, so that sections are across.
-void find_radii(const Solid& solid, const Lattice& lattice, std::span<const char> in_joint,
-                CurveSkeleton& curve) {
+void find_radii(const Solid& solid, const Lattice& lattice, std::span<const std::vector<std::uint32_t>> lines,
+                std::span<const char> in_joint, CurveSkeleton& curve) {
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : curve.vertices)
     places.push_back(scaled_from_frame(lattice, vertex.position));
   std::vector<double> balls = curve.distance;
   for (double& ball : balls) ball /= solid.scale();
   const double volume = solid.volume / (solid.scale() * solid.scale() * solid.scale());
-  const std::vector<double> tube = slice_radii({places, curve.segments, curve.slice, balls, volume});
-  const std::vector<double> area = areas_of(LimbSections(solid.mesh), places, balls, curve.segments);
-  curve.radius = limb_radii({curve.segments, curve.share, curve.slice, tube, area, in_joint, volume});
+  const std::vector<double> tube = slice_radii({places, lines, curve.slice, balls, volume});
+  const std::vector<double> area = areas_of(LimbSections(solid.mesh), places, balls, lines);
+  curve.radius = limb_radii({lines, curve.share, curve.slice, tube, area, in_joint, volume});
   for (double& radius : curve.radius) radius *= solid.scale();
 }
 
-void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, ExecutionContext* context) {
+void measure(const Solid& solid, const Lattice& lattice, const LimbSurface& surface, CurveSkeleton& curve,
+             ExecutionContext* context) {
   give_the_rest(lattice, curve);
-  const Mesh surface = surface_in_frame(solid, lattice);
-  const LimbSections sections(surface);
-  const DistanceToMesh distance(surface);
   const std::vector<Vec3> places = positions(curve);
   std::vector<double> balls;
-  for (const Vec3& place : places)
-    balls.push_back(sections.thickness(place, LimbSections::kSeen * distance.nearest(place)));
+  for (const Vec3& place : places) balls.push_back(surface.thickness(place));
   const Adjacency beside = neighbours(places.size(), curve.segments);
   const double one = 1 / static_cast<double>(lattice.points);
   const auto for_each = [&](const auto& vertex_of) {  // what a point has, by what it had
@@ -289,17 +288,18 @@ void measure(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve, E
   };
   curve.slice =
       for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, beside, at, nearest); });
-  const std::vector<double> radius = slice_radii({places, curve.segments, curve.slice, balls, solid.volume});
   const auto lines = polylines(places.size(), curve.segments);
+  const std::vector<double> radius = slice_radii({places, lines, curve.slice, balls, solid.volume});
   LimbHubs hubs = limb_hubs({places, lines, radius, lattice, curve.nearest, context});
-  const auto forks = limb_forks(places, lines, sections, lattice.spacing);
-  const LimbTubes tubes(places, curve.segments, balls, radius, forks, std::move(hubs),
-                        [&](const Vec3& place, const Vec3& u, const Vec3& v, double reach) {
-                          return sections.ellipse(place, u, v, reach);
-                        });
-  curve.share = for_each([&](const Vec3& at, std::uint32_t nearest) { return tubes.vertex_of(at, nearest); });
+  const auto forks = limb_forks(places, lines, surface.sections, lattice.spacing);
+  const auto ellipse_at = [&](const Vec3& place, const Vec3& u, const Vec3& v, double ball) {
+    return surface.sections.ellipse(place, u, v, ball);
+  };
+  curve.share = for_each(limb_tubes({places, lines, balls, radius, forks, std::move(hubs), ellipse_at}));
   curve.beyond = volume_beyond(curve.segments, curve.share);
-  find_radii(solid, lattice, vertices_in_joints(places, lines, forks), curve);
+  find_radii(solid, lattice, lines, vertices_in_joints(places, lines, forks), curve);
+  curve.branches = static_cast<std::uint32_t>(lines.size());
+  for (std::size_t v = 0; v < beside.size(); ++v) curve.ends += beside[v].size() == 1;
 }
 
 // The lines in their places, and which vertices of the ridge theirs are.
@@ -308,18 +308,17 @@ struct Drawn {
   std::vector<std::uint32_t> lines;
 };
 
-Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis, const RidgeSheet& ridge,
-            const CurveOptions& options) {
+Drawn drawn(const LimbSurface& surface, const Lattice& lattice, const RidgeBasis& basis,
+            const RidgeSheet& ridge, const CurveOptions& options) {
   require_within(options.least_reach, 1e-6, 1e6,
                  "the least length of a limb must lie between 1e-6 and 1e6 radii");
-  const Mesh surface = surface_in_frame(solid, lattice);
   const std::vector<double> balls = balls_of(lattice, basis, ridge);
   LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
   SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
   add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
   std::vector<Vec3> places = positions(ridge);
   lines = sheet_lines(ridge, ends.is_end, options.context);
-  const std::vector<double> thickness = thickness_along(surface, lines, places, balls);
+  const std::vector<double> thickness = thickness_along(surface.sections, lines, places, balls);
   lines = pruned_lines(lines, ridge, thickness, kLeastThickness * lattice.spacing, options.context);
   lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
   CurveSkeleton curve;
@@ -339,18 +338,16 @@ Drawn drawn(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
 
 SheetMesh curve_lines(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
                       const RidgeSheet& ridge, const CurveOptions& options) {
-  return drawn(solid, lattice, basis, ridge, options).curve;
+  return drawn(LimbSurface(surface_in_frame(solid, lattice)), lattice, basis, ridge, options).curve;
 }
 
 CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
                              const RidgeSheet& ridge, const CurveOptions& options) {
-  auto [curve, lines] = drawn(solid, lattice, basis, ridge, options);
+  const LimbSurface surface(surface_in_frame(solid, lattice));
+  auto [curve, lines] = drawn(surface, lattice, basis, ridge, options);
   give_points(basis, ridge, lines, curve, options.context);
   find_distances(solid, lattice, curve);
-  measure(solid, lattice, curve, options.context);
-  curve.branches = static_cast<std::uint32_t>(polylines(curve.vertices.size(), curve.segments).size());
-  const Adjacency beside = neighbours(curve.vertices.size(), curve.segments);
-  for (std::size_t v = 0; v < beside.size(); ++v) curve.ends += beside[v].size() == 1;
+  measure(solid, lattice, surface, curve, options.context);
   return std::move(curve);
 }
 

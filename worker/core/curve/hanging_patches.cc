@@ -6,6 +6,7 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/mesh/edges.h"
 
 namespace affskel::core {
@@ -68,7 +69,7 @@ class Patches {
   }
 
   void measure() {
-    std::vector<std::uint32_t> rim(on_patch_.size(), kNoNode), roots = rim;
+    std::vector<std::uint32_t> rim(on_patch_.size(), kNone), roots = rim;
     for (const Segment& edge : rim_)
       for (const std::uint32_t v : edge) rim[v] = v;
     for (const auto& [first, patch] : patches_)

@@ -27,9 +27,7 @@ class Joints {
         joint_(lines.vertices.size()),
         gone_(polylines_.size(), 0) {
     for (std::uint32_t v = 0; v < joint_.size(); ++v) joint_[v] = v;
-    std::vector<std::uint32_t> degree(lines.vertices.size(), 0);
-    for (const auto& line : polylines_)
-      for (const std::uint32_t v : {line.front(), line.back()}) ++degree[v];
+    const std::vector<std::uint32_t> degree = ends_of(lines.vertices.size(), polylines_);
     for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
       const std::uint32_t a = polylines_[n].front(), b = polylines_[n].back();
       if (a != b && degree[a] > 2 && degree[b] > 2) links_.push_back({length_of(polylines_[n]), n});

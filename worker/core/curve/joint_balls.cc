@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/mesh/polylines.h"
+
 namespace affskel::core {
 
-bool JointBalls::hold(const Vec3& at, double times) const {
-  if (norm(at - joint) >= times * size) return false;
+bool JointBalls::hold(const Vec3& at) const {
+  if (norm(at - joint) >= kNear * size) return false;
   for (std::size_t n = 0; n < centres.size(); ++n)
-    if (norm(at - centres[n]) < times * radii[n]) return true;
+    if (norm(at - centres[n]) < kNear * radii[n]) return true;
   return false;
 }
 
@@ -20,7 +22,7 @@ std::vector<JointBalls> joint_balls(std::span<const Vec3> places,
     result.push_back({places[v], ball[v], {places[v]}, {ball[v]}});
   for (const auto& line : lines) {
     for (const bool from_last : {false, true}) {
-      const auto at = [&](std::size_t n) { return line[from_last ? line.size() - 1 - n : n]; };
+      const auto at = [&](std::size_t n) { return point_from(from_last, line, n); };
       JointBalls& joint = result[at(0)];
       for (std::size_t n = 1; n < line.size() && norm(places[at(n)] - places[at(0)]) < ball[at(n)]; ++n) {
         joint.size = std::max(joint.size, ball[at(n)]);

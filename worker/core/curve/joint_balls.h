@@ -19,8 +19,8 @@ struct JointBalls {
   /// Times: nearer to a joint a section of a limb has a part of the other limbs.
   static constexpr double kNear = 1.22;
 
-  /// Whether a place lies within so many radii of one of them, and of the joint, by the largest one's.
-  bool hold(const Vec3& at, double times) const;
+  /// Whether a place lies within kNear radii of one of them, and of the joint, by the largest one's.
+  bool hold(const Vec3& at) const;
 };
 
 /// @param lines see polylines(), by numbers in places.

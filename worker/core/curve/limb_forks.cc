@@ -13,7 +13,7 @@ class Walk {
  public:
   Walk(std::span<const Vec3> places, std::span<const std::uint32_t> line, bool back) {
     for (std::size_t n = 0; n < line.size(); ++n) {
-      const Vec3& at = places[line[back ? line.size() - 1 - n : n]];
+      const Vec3& at = places[point_from(back, line, n)];
       way_.push_back(n == 0 ? 0 : way_.back() + norm(at - places_.back()));
       places_.push_back(at);
     }
@@ -41,7 +41,7 @@ double ahead(const Vec3& way, const Vec3& direction) {
 std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
                                               std::span<const std::vector<std::uint32_t>> lines,
                                               const LimbSections& sections, double step) {
-  std::vector<std::vector<LimbFork::End>> ends(places.size());
+  std::vector<std::vector<LineEnd>> ends(places.size());
   for (std::uint32_t n = 0; n < lines.size(); ++n)
     for (const bool back : {false, true})
       ends[back ? lines[n].back() : lines[n].front()].push_back({n, back});
@@ -49,7 +49,7 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
   for (std::size_t v = 0; v < places.size(); ++v) {
     if (ends[v].size() < 3) continue;
     std::vector<Walk> walks;
-    for (const LimbFork::End& end : ends[v]) walks.push_back({places, lines[end.line], end.back});
+    for (const LineEnd& end : ends[v]) walks.push_back({places, lines[end.line], end.back});
     for (std::size_t a = 0; a < walks.size(); ++a)
       for (std::size_t b = a + 1; b < walks.size(); ++b) {
         const bool is_loop = ends[v][a].line == ends[v][b].line;
@@ -72,9 +72,9 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
 }
 
 std::size_t before_forks(std::span<const Vec3> places, std::span<const std::vector<std::uint32_t>> lines,
-                         std::span<const LimbFork> forks, const LimbFork::End& limb) {
+                         std::span<const LimbFork> forks, const LineEnd& limb) {
   const auto& line = lines[limb.line];
-  const auto at = [&](std::size_t n) { return places[line[limb.back ? line.size() - 1 - n : n]]; };
+  const auto at = [&](std::size_t n) { return places[point_from(limb.back, line, n)]; };
   std::size_t count = 0;
   const auto is_ahead = [&](const LimbFork& fork) {
     return (fork.limbs[0] == limb || fork.limbs[1] == limb) &&

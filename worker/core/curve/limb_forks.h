@@ -8,6 +8,7 @@
 
 #include "core/base/vec3.h"
 #include "core/curve/limb_sections.h"
+#include "core/mesh/polylines.h"
 
 namespace affskel::core {
 
@@ -15,13 +16,7 @@ namespace affskel::core {
 /// ends between them: in the crotch, in an armpit.  Noise moves that place as little as the surface itself, however it
 /// moves the joint.
 struct LimbFork {
-  struct End {
-    std::uint32_t line = 0;
-    bool back = false;  ///< by its last vertex
-
-    bool operator==(const End&) const = default;
-  };
-  std::array<End, 2> limbs;
+  std::array<LineEnd, 2> limbs;
   Vec3 place;  ///< between them, where the surface is first
 };
 
@@ -39,6 +34,6 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
 /// How many vertices of a limb, from its joint on, have sections that reach into the others: they part from it no sooner.
 /// @param forks of the joint at this end.
 std::size_t before_forks(std::span<const Vec3> places, std::span<const std::vector<std::uint32_t>> lines,
-                         std::span<const LimbFork> forks, const LimbFork::End& limb);
+                         std::span<const LimbFork> forks, const LineEnd& limb);
 
 }  // namespace affskel::core

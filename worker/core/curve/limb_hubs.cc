@@ -7,8 +7,10 @@
 #include <numbers>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/median.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/lattice/lattice_points.h"
+#include "core/mesh/polylines.h"
 
 namespace affskel::core {
 namespace {
@@ -42,16 +44,14 @@ class FindHubs {
  public:
   explicit FindHubs(const LimbHubsInput& input)
       : in_(input),
-        ends_(input.places.size(), 0),
+        ends_(ends_of(input.places.size(), input.lines)),
         length_(input.places.size(), 0),
         is_body_(input.places.size(), 0),
         bodies_(input.places.size()),
         moments_(input.places.size()),
-        result_{{}, std::vector<std::uint32_t>(input.places.size(), kNoHub)} {}
+        result_{{}, std::vector<std::uint32_t>(input.places.size(), kNone)} {}
 
   LimbHubs run() {
-    for (const auto& line : in_.lines)
-      for (const std::uint32_t v : {line.front(), line.back()}) ++ends_[v];
     StopCheck stop(in_.context);
     each_point(stop, [&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
     for (const auto& line : in_.lines) part(line);
@@ -70,10 +70,7 @@ class FindHubs {
     std::vector<double> radii;
     for (const std::uint32_t v : line)
       if (!is_joint(v)) radii.push_back(in_.radius[v]);
-    if (radii.empty()) return 0;
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return *middle;
+    return radii.empty() ? 0 : median(std::move(radii));
   }
 
   // How much wider than thick what is nearest to a line is, across it: in its slices, which are thinner.
@@ -103,8 +100,7 @@ class FindHubs {
   // What of a line is a limb's, and what is not.
   void part(std::vector<std::uint32_t> line) {
     const std::uint32_t a = line.front(), b = line.back();
-    double length = 0;
-    for (std::size_t n = 1; n < line.size(); ++n) length += way(line[n - 1], line[n]);
+    const double length = length_of(in_.places, line);
     const double size = size_of(line);
     const bool is_link = is_joint(a) && is_joint(b);
     if (a != b && is_link && (length < 2 * size || flatness(line) > kPlate))
@@ -136,9 +132,9 @@ class FindHubs {
   // Bodies of points that follow each other in a row.
   void join_what_touches(StopCheck& stop) {
     Vec3 last;
-    std::uint32_t before = kNoHub;
+    std::uint32_t before = kNone;
     each_point(stop, [&](const Vec3& at, std::uint32_t v) {
-      const bool is_next = before != kNoHub && norm(at - last) < 1.1 * in_.lattice.spacing;
+      const bool is_next = before != kNone && norm(at - last) < 1.1 * in_.lattice.spacing;
       if (is_next && is_body_[v] && is_body_[before]) bodies_.unite(v, before);
       before = v;
       last = at;
@@ -147,21 +143,21 @@ class FindHubs {
 
   void add_hub(std::uint32_t body) {
     const auto number = static_cast<std::uint32_t>(result_.hubs.size());
-    LimbHub hub{kNoHub, {}};
+    LimbHub hub{kNone, {}};
     HubMoments all;
     std::vector<std::uint32_t> own;
     for (std::uint32_t v = body; v < ends_.size(); ++v) {
-      if (!is_body_[v] || bodies_.find(v) != body || result_.of[v] != kNoHub) continue;
+      if (!is_body_[v] || bodies_.find(v) != body || result_.of[v] != kNone) continue;
       own.push_back(v);
       all.add(moments_[v]);
-      if (is_joint(v) && (hub.joint == kNoHub || in_.radius[v] > in_.radius[hub.joint])) hub.joint = v;
+      if (is_joint(v) && (hub.joint == kNone || in_.radius[v] > in_.radius[hub.joint])) hub.joint = v;
     }
-    if (hub.joint == kNoHub || !is_thick(body, all.count)) return;
+    if (hub.joint == kNone || !is_thick(body, all.count)) return;
     for (const std::uint32_t v : own) result_.of[v] = number;
     if (grow(number, all, hub))
       result_.hubs.push_back(hub);
     else
-      std::replace(result_.of.begin(), result_.of.end(), number, kNoHub);
+      std::replace(result_.of.begin(), result_.of.end(), number, kNone);
   }
 
   bool is_thick(std::uint32_t body, double count) {
@@ -183,7 +179,7 @@ class FindHubs {
       grows = false;
       fit(all, hub);
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-        if (result_.of[v] != kNoHub || hub.outside(in_.places[v]) >= 0) continue;
+        if (result_.of[v] != kNone || hub.outside(in_.places[v]) >= 0) continue;
         if (ends_[v] == 1 && length_[v] > 2 * radius_of(all.count)) return false;
         result_.of[v] = number;
         all.add(moments_[v]);
@@ -191,8 +187,7 @@ class FindHubs {
       }
     }
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0)
-        result_.of[v] = kNoHub;
+      if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0) result_.of[v] = kNone;
     return true;
   }
 

@@ -7,12 +7,11 @@
 
 #include "core/base/execution_context.h"
 #include "core/base/matrix3.h"
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/lattice/lattice.h"
 
 namespace affskel::core {
-
-constexpr std::uint32_t kNoHub = std::numeric_limits<std::uint32_t>::max();
 
 /// A body that limbs hang on, as an octopus's head, an elephant's torso or a chair's seat: an ellipsoid.
 struct LimbHub {
@@ -26,9 +25,9 @@ struct LimbHub {
 
 struct LimbHubs {
   std::vector<LimbHub> hubs;
-  std::vector<std::uint32_t> of;  ///< per vertex: its hub; kNoHub of what is a limb's
+  std::vector<std::uint32_t> of;  ///< per vertex: its hub; kNone of what is a limb's
 
-  const LimbHub* at(std::uint32_t vertex) const { return of[vertex] == kNoHub ? nullptr : &hubs[of[vertex]]; }
+  const LimbHub* at(std::uint32_t vertex) const { return of[vertex] == kNone ? nullptr : &hubs[of[vertex]]; }
 };
 
 struct LimbHubsInput {

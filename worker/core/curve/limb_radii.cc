@@ -40,14 +40,6 @@ Window window(std::size_t n, std::size_t count, const IsWhole& is_whole) {
   return around;
 }
 
-std::vector<std::uint32_t> ends_of(std::size_t vertices,
-                                   const std::vector<std::vector<std::uint32_t>>& lines) {
-  std::vector<std::uint32_t> ends(vertices, 0);
-  for (const auto& line : lines)
-    for (const std::uint32_t v : {line.front(), line.back()}) ++ends[v];
-  return ends;
-}
-
 double radius_of_disc(double area) {
   return std::sqrt(area / std::numbers::pi);
 }
@@ -55,10 +47,9 @@ double radius_of_disc(double area) {
 }  // namespace
 
 std::vector<double> slice_radii(const LimbSlices& input) {
-  const auto lines = polylines(input.places.size(), input.segments);
-  const std::vector<std::uint32_t> ends = ends_of(input.places.size(), lines);
+  const std::vector<std::uint32_t> ends = ends_of(input.places.size(), input.lines);
   std::vector<double> radius(input.places.size(), 0);
-  for (const auto& line : lines) {
+  for (const auto& line : input.lines) {
     const std::size_t count = line.size();
     std::vector<double> volume(count + 1, 0), length(count + 1, 0);  // of all before
     std::vector<char> whole(count);
@@ -85,11 +76,10 @@ std::vector<double> slice_radii(const LimbSlices& input) {
 
 std::vector<double> limb_radii(const LimbRadiiInput& input) {
   const std::size_t vertices = input.share.size();
-  const auto lines = polylines(vertices, input.segments);
-  const std::vector<std::uint32_t> ends = ends_of(vertices, lines);
+  const std::vector<std::uint32_t> ends = ends_of(vertices, input.lines);
   std::vector<double> radius(vertices, 0);
   std::vector<char> in_line(vertices, 0);
-  for (const auto& line : lines) {
+  for (const auto& line : input.lines) {
     const std::size_t count = line.size();
     for (const std::uint32_t v : line) in_line[v] = 1;
     std::vector<char> whole(count);

@@ -1,17 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/base/vec3.h"
-#include "core/mesh/mesh.h"
 
 namespace affskel::core {
 
 struct LimbSlices {
-  std::span<const Vec3> places;       ///< per vertex
-  std::span<const Segment> segments;  ///< as for polylines()
-  std::span<const double> slice;      ///< per vertex: of the volume, what is nearest to it
+  std::span<const Vec3> places;                       ///< per vertex
+  std::span<const std::vector<std::uint32_t>> lines;  ///< see polylines()
+  std::span<const double> slice;                      ///< per vertex: of the volume, what is nearest to it
   /// Per vertex: distance to the surface; a free end reaches so far beyond itself.
   std::span<const double> ball;
   double volume = 0;
@@ -23,12 +23,12 @@ struct LimbSlices {
 std::vector<double> slice_radii(const LimbSlices& input);
 
 struct LimbRadiiInput {
-  std::span<const Segment> segments;  ///< as for polylines()
-  std::span<const double> share;      ///< per vertex: of the volume, what belongs to it
-  std::span<const double> slice;      ///< per vertex: of the volume, what is nearest to it
-  std::span<const double> tube;       ///< per vertex: see slice_radii()
-  std::span<const double> area;       ///< per vertex: of the section across the line
-  std::span<const char> in_joint;     ///< per vertex: whether that section reaches into other limbs
+  std::span<const std::vector<std::uint32_t>> lines;  ///< see polylines()
+  std::span<const double> share;                      ///< per vertex: of the volume, what belongs to it
+  std::span<const double> slice;                      ///< per vertex: of the volume, what is nearest to it
+  std::span<const double> tube;                       ///< per vertex: see slice_radii()
+  std::span<const double> area;                       ///< per vertex: of the section across the line
+  std::span<const char> in_joint;  ///< per vertex: whether that section reaches into other limbs
   double volume = 0;
 };
 

@@ -116,9 +116,9 @@ LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const
   return length;
 }
 
-LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double reach) const {
+LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double ball) const {
   const Vec3 u = unit_beside(across), v = cross(across, u);
-  const Rays length = outline(place, u, v, reach);
+  const Rays length = outline(place, u, v, kSeen * ball);
   double squares = 0;
   Vec3 moment;
   for (std::size_t n = 0; n < kRays; ++n) {
@@ -166,7 +166,8 @@ double LimbSections::area(const Vec3& place, const Vec3& across) const {
   return std::isfinite(least) ? least : 0;
 }
 
-LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const {
+LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double ball) const {
+  const double reach = kSeen * ball;
   const Rays length = outline(place, u, v, reach);
   LimbEllipse ellipse;
   for (std::size_t n = 0; n < kRays; ++n) {
@@ -188,8 +189,8 @@ LimbEllipse LimbSections::ellipse(const Vec3& place, const Vec3& u, const Vec3& 
 
 // Rays as long as that are mostly not needed.  Nor does it matter that rays are at most twice as long as the middle one of
 // their plane: more than kShort of all are shorter than that one.
-double LimbSections::thickness(const Vec3& place, double reach) const {
-  const double near = kNear * reach, found = shortest_rays(place, near);
+double LimbSections::thickness(const Vec3& place, double ball) const {
+  const double reach = kSeen * ball, near = kNear * reach, found = shortest_rays(place, near);
   return found < near ? found : shortest_rays(place, reach);
 }
 

@@ -33,15 +33,15 @@ struct LimbSection {
 class LimbSections {
  public:
   static constexpr double kWidest = 2;
-  static constexpr double kSeen = 4;  ///< balls: what users take for the reach of rays
+  static constexpr double kSeen = 4;  ///< balls: how far rays reach
 
   /// @param surface closed.
   explicit LimbSections(const Mesh& surface);
 
   /// @param place within the solid.
   /// @param across unit normal of the plane.
-  /// @param reach of the rays, > 0.
-  LimbSection at(const Vec3& place, const Vec3& across, double reach) const;
+  /// @param ball about the place, about as large as the limb is thick, > 0.
+  LimbSection at(const Vec3& place, const Vec3& across, double ball) const;
 
   /// The area of all that the plane through a place has of the solid round it, in whatever shape; what lies apart, as another
   /// limb, or within, as a cavity, does not count.  0 from outside.
@@ -49,14 +49,14 @@ class LimbSections {
 
   /// @param u, v of the plane, unit vectors at right angles.
   /// @return of which no radius is more than kFlattest times another.
-  LimbEllipse ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double reach) const;
+  LimbEllipse ellipse(const Vec3& place, const Vec3& u, const Vec3& v, double ball) const;
 
   static constexpr double kFlattest = 3;
 
   /// How thick the solid is about a place: what a share of the rays in three planes at right angles falls short of.  In a
   /// tube its radius, in a plate half its thickness; spikes and dents of noise, which the distance to the surface follows,
   /// change it little.
-  double thickness(const Vec3& place, double reach) const;
+  double thickness(const Vec3& place, double ball) const;
 
   /// Where the surface is between two places: the middle of all that; none where they see each other.
   std::optional<Vec3> parted(const Vec3& a, const Vec3& b) const;

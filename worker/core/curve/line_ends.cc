@@ -42,7 +42,7 @@ class DrawEnd {
   }
 
   LimbSection section(const Vec3& place, const Vec3& across) const {
-    return in_.sections.at(place, across, LimbSections::kSeen * in_.distance.nearest(place));
+    return in_.sections.at(place, across, in_.distance.nearest(place));
   }
 
   template <class IsNear>
@@ -92,12 +92,12 @@ class DrawEnd {
   // How far a limb goes on beyond the centre of its end.
   double to_face(const Vec3& centre, const Vec3& along) const {
     const double step = in_.spacing / 8;
-    const double ball = in_.distance.nearest(centre), seen = LimbSections::kSeen * ball;
+    const double ball = in_.distance.nearest(centre);
     double reach = 0;
     while (reach < kFace * ball && in_.solid.contains(centre + (reach + step) * along)) reach += step;
     if (!(reach > 0) || reach >= kFace * ball) return 0;
     const auto square = [&](double part) {
-      const double radius = in_.sections.at(centre + part * reach * along, along, seen).radius;
+      const double radius = in_.sections.at(centre + part * reach * along, along, ball).radius;
       return radius * radius;
     };
     const double share = (square(0.25) + square(0.5) + square(0.75)) / (3 * square(0));

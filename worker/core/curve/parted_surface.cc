@@ -12,7 +12,6 @@
 #include "core/base/unit.h"
 #include "core/collapse/dual_complex.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "core/lattice/lattice_points.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {
@@ -22,28 +21,23 @@ constexpr std::int32_t kFarthest = 4;  // steps
 
 class PointsOfLattice {
  public:
-  explicit PointsOfLattice(const Lattice& lattice)
-      : band_(lattice, 0), rank_(band_.places(), DualComplex::kNone) {
-    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-      rank_[static_cast<std::size_t>(band_.at(i, j, k))] = rank;
-    });
-  }
+  explicit PointsOfLattice(const Lattice& lattice) : band_(lattice, 0), rank_(ranks_in(band_, lattice)) {}
 
   // @param at real indices.
   std::uint32_t nearest(const Vec3& at) const {
     for (std::int32_t reach = 1; reach <= kFarthest; reach *= 2)
-      if (const std::uint32_t found = nearest_within(at, reach); found != DualComplex::kNone) return found;
-    return DualComplex::kNone;
+      if (const std::uint32_t found = nearest_within(at, reach); found != kNone) return found;
+    return kNone;
   }
 
  private:
   std::uint32_t nearest_within(const Vec3& at, std::int32_t reach) const {
     double least = double(reach) * reach;
-    std::uint32_t found = DualComplex::kNone;
+    std::uint32_t found = kNone;
     band_.any_near(at, reach, [&](std::size_t place, double square) {
       const std::uint32_t rank = rank_[place];
-      if (rank == DualComplex::kNone || square > least) return false;
-      if (square == least && found != DualComplex::kNone) return false;
+      if (rank == kNone || square > least) return false;
+      if (square == least && found != kNone) return false;
       least = square;
       found = rank;
       return false;
@@ -106,13 +100,13 @@ class CutTriangles {
     if (!(longest > spacing_)) return false;
     const double height = norm(cross(place(t[1]) - place(t[0]), place(t[2]) - place(t[0]))) / longest;
     const double rows = std::ceil(height / spacing_ + 1);
-    std::uint32_t first = DualComplex::kNone;
+    std::uint32_t first = kNone;
     for (double row = 0.5; row < rows; ++row) {
       const double v = row / rows, places = std::ceil(longest * (1 - v) / spacing_ + 1);
       for (double at = 0.5; at < places; ++at) {
         const std::uint32_t point = point_under(t, at / places * (1 - v), v);
-        if (point == DualComplex::kNone) continue;
-        if (first == DualComplex::kNone) first = part_[point];
+        if (point == kNone) continue;
+        if (first == kNone) first = part_[point];
         if (part_[point] != first) return true;
       }
     }
@@ -153,7 +147,7 @@ class CutTriangles {
   // The middle of an edge that is cut, else kNone.
   std::uint32_t middle(std::uint32_t a, std::uint32_t b) const {
     const auto found = middle_.find(ascending(a, b));
-    return found == middle_.end() ? DualComplex::kNone : found->second;
+    return found == middle_.end() ? kNone : found->second;
   }
 
   // A triangle with any mark has one on its longest edge: two halves, each halved again where its own edge is marked.
@@ -177,7 +171,7 @@ class CutTriangles {
   // Across its first edge, where that is cut.
   void halve(const Triangle& t, bool may_mix) {
     const std::uint32_t m = middle(t[0], t[1]);
-    if (m == DualComplex::kNone) {
+    if (m == kNone) {
       add(t, may_mix);
       return;
     }

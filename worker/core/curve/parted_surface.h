@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/none.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
 #include "core/solid/solid.h"
@@ -14,7 +15,7 @@ namespace affskel::core {
 /// The surface of a solid, its triangles cut where its parts meet.
 struct PartedSurface {
   Mesh mesh;  ///< scaled coordinates; closed as the solid's is, whose vertices come first
-  std::vector<std::uint32_t> point;  ///< per triangle, the sample point next to it; or kNone of DualComplex
+  std::vector<std::uint32_t> point;  ///< per triangle, the sample point next to it; or kNone
 };
 
 /// The sample point next to a place of the surface is the nearest, in steps of the lattice, to the place half a spacing

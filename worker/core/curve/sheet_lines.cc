@@ -14,6 +14,7 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
+#include "core/base/none.h"
 #include "core/base/parity_rows.h"
 
 namespace affskel::core {
@@ -120,7 +121,7 @@ class Collapse {
 
   // Per vertex: when it is eaten.
   std::vector<double> times() const {
-    std::vector<std::uint32_t> rim(sheet_.vertices.size(), kNoNode), starts = rim;
+    std::vector<std::uint32_t> rim(sheet_.vertices.size(), kNone), starts = rim;
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       if (cofaces_[e] == 1)
         for (const std::uint32_t v : edges_[e]) rim[v] = v;

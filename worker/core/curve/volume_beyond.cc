@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/base/none.h"
 #include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 // A search in depth, without recursion: low is the earliest vertex that a subtree has an edge to.
 class Cuts {

@@ -15,7 +15,7 @@ using Line = std::vector<std::uint32_t>;
 
 // A line beside another, both from the same joint on.
 struct Beside {
-  std::size_t sliding = 0, other = 0;  // lines
+  std::uint32_t sliding = 0, other = 0;  // lines
   bool sliding_back = false, other_back = false;
   std::size_t leaves = 0,
               at = 0;  // the last vertex of the one that is beside the other, and which of that it is beside
@@ -28,12 +28,6 @@ struct Beside {
     };
     return order(*this) < order(that);
   }
-};
-
-// A line that ends at a joint, by its first vertex or by its last.
-struct LineEnd {
-  std::size_t line;
-  bool back;
 };
 
 class Zip {
@@ -69,10 +63,10 @@ class Zip {
 
   void add(Line line) {
     parts_.push_back(std::move(line));
-    put_ends(parts_.size() - 1);
+    put_ends(static_cast<std::uint32_t>(parts_.size() - 1));
   }
 
-  void put_ends(std::size_t number) {
+  void put_ends(std::uint32_t number) {
     const Line& line = parts_[number];
     for (const bool back : {false, true}) {
       const std::uint32_t v = back ? line.back() : line.front();
@@ -82,7 +76,7 @@ class Zip {
   }
 
   // Its line stays to be taken; the numbers of the others stay.
-  Line taken(std::size_t number) {
+  Line taken(std::uint32_t number) {
     Line line = std::exchange(parts_[number], {});
     for (const std::uint32_t v : {line.front(), line.back()}) {
       std::erase_if(at_[v], [&](const LineEnd& end) { return end.line == number; });

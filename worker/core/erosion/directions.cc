@@ -17,7 +17,7 @@ std::vector<Part> parse(std::string_view spec) {
   try {
     return base::parse_direction_set(spec);
   } catch (const std::invalid_argument& error) {
-    throw CoreError(CoreError::Code::kBadInput, error.what());
+    refuse(error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/none.h"
 #include "core/lattice/layer_index.h"
 
 namespace affskel::core {
@@ -43,7 +44,7 @@ class Between {
       const Vec3 to = x - vector_of(c);
       const double weight = (1 - std::abs(to.x)) * (1 - std::abs(to.y)) * (1 - std::abs(to.z));
       const std::uint32_t rank = ranks_.at(c[0], c[1], c[2]);
-      if (weight == 0 || rank == LayerIndex::kOutside || !std::isfinite(field_.erosion[rank])) continue;
+      if (weight == 0 || rank == kNone || !std::isfinite(field_.erosion[rank])) continue;
       weights += weight;
       erosion += weight * (field_.erosion[rank] + field_.spacing * dot(field_.gradient[rank], to));
       area += weight * norm(to_mesh_ * field_.gradient[rank]);

@@ -24,7 +24,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = SectionBends::kNone;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kThinRim = 1e-9;  // radians: what angle-weighted normals sum up to
 // Small trees get about this many bins in all: filling them costs less than the chords they save.
@@ -209,7 +208,7 @@ class JoinTreeBuilder::Work {
     if (up > 0 && !nested) return new_arc(r, input_.vertex_solid[v]);
     const std::uint32_t below =
         input_.rays.first_exit_below(v, d_, [&](std::uint32_t t) { return begins_below(t, r); });
-    if (below != RayShooter::kNone) return arc_of(vertex_.lowest[below]);
+    if (below != kNone) return arc_of(vertex_.lowest[below]);
     // At the rim of a thin plate the normals of its two sides cancel but for rounding.
     const bool undecided = up > -kThinRim;
     if (!options_.crosses_itself && !undecided) {
@@ -267,7 +266,7 @@ class JoinTreeBuilder::Work {
     for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
       tree_.arcs[a].first_cubic = tree_.arcs[a].last_cubic = next;
       next += topology_.cubic_count[a];
-      tree_.roots += tree_.arcs[a].parent == Arc::kNone;
+      tree_.roots += tree_.arcs[a].parent == kNone;
     }
   }
 
@@ -316,7 +315,7 @@ class JoinTreeBuilder::Work {
   void lower_bins() {
     for (std::size_t a = tree_.arcs.size(); a-- > 0;) {  // parents before their children
       const Arc& arc = tree_.arcs[a];
-      const bool root = arc.parent == Arc::kNone;
+      const bool root = arc.parent == kNone;
       double least = root ? kInfinity : tree_.bin_volume[tree_.arcs[arc.parent].first_bin];
       double end = root ? tree_.cubics[arc.last_cubic].height : arc.top;
       std::uint32_t p = arc.last_cubic;  // `least` is for what lies above this cubic, which ends at `end`
@@ -352,7 +351,7 @@ class JoinTreeBuilder::Work {
                       " v0 along an arc");
     }
     for (std::size_t a = 0; a < tree_.arcs.size(); ++a) {
-      if (tree_.arcs[a].parent != Arc::kNone) continue;
+      if (tree_.arcs[a].parent != kNone) continue;
       const double volume = tree_.cubics[tree_.arcs[a].last_cubic].volume;
       const double expected = input_.solid_volume[topology_.arc_solid[a]];
       if (!(std::abs(volume - expected) <= tolerance_)) {

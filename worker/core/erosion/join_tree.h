@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/erosion/tree_input.h"
 
@@ -32,7 +33,6 @@ struct Cubic {
 /// `top`, where it merges into `parent`.  A top is lower than its vertex by HeightOrder::kUnit: at the vertex
 /// itself, whichever way its height was rounded, a point lies in the parent.
 struct Arc {
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   double top = 0;                 ///< +infinity for a root
   double bottom = 0;              ///< height of the first cubic
   std::uint32_t parent = kNone;   ///< kNone for a root

@@ -29,7 +29,7 @@ PlaceChords::PlaceChords(const Solid& solid, std::span<const Vec3> places, unsig
       bool inside = true;
       for (std::size_t way = 0; way < below.size() && inside; ++way) {
         const AxisRays::Hit hit = rays.shoot(places_[p], static_cast<int>(way / 2), way % 2 == 1);
-        inside = hit.winding > 0 && hit.triangle != AxisRays::kNone;
+        inside = hit.winding > 0 && hit.triangle != kNone;
         below[way] = hit.triangle;
       }
       if (inside) below_[p] = below;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/erosion/join_tree.h"
 #include "core/solid/solid.h"
 #include "core/spatial/axis_rays.h"
@@ -38,8 +39,7 @@ class PlaceChords {
   // The first triangles against and along each axis: [2 axis], [2 axis + 1].
   using Below = std::array<std::uint32_t, 6>;
 
-  static constexpr Below kOutside = {AxisRays::kNone, AxisRays::kNone, AxisRays::kNone,
-                                     AxisRays::kNone, AxisRays::kNone, AxisRays::kNone};
+  static constexpr Below kOutside = {kNone, kNone, kNone, kNone, kNone, kNone};
 
   std::vector<Vec3> places_;
   std::vector<Below> below_;

@@ -37,7 +37,7 @@ struct Corners {
 };
 
 void add_steeply(SectionBends& out, Link& link, const DoubleSum& bend) {
-  if (link.steep == SectionBends::kNone) {
+  if (link.steep == kNone) {
     link.steep = static_cast<std::uint32_t>(out.steep_bend.size());
     out.steep_bend.emplace_back();
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/double_sum.h"
+#include "core/base/none.h"
 #include "core/erosion/height_order.h"
 #include "core/erosion/tree_input.h"
 
@@ -20,7 +21,6 @@ struct Jump {
 /// What one pass over the triangles leaves for the sweep over the vertices.
 struct SectionBends {
   using Pair = double __attribute__((vector_size(16)));  ///< a register's worth
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
   /// Kept together: triangles meet their vertices in any order, and each visit is then one access to memory.
   struct alignas(32) Vertex {

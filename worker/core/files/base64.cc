@@ -8,11 +8,11 @@ namespace affskel::core {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::int8_t kNone = -1;
+constexpr std::int8_t kNoDigit = -1;
 
 constexpr std::array<std::int8_t, 256> values_of_digits() {
   std::array<std::int8_t, 256> values{};
-  values.fill(kNone);
+  values.fill(kNoDigit);
   for (std::size_t i = 0; i < kDigits.size(); ++i) {
     values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
   }
@@ -54,7 +54,7 @@ std::optional<std::string> bytes_of_base64(std::string_view text) {
   for (const char c : text) {
     if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
     const std::int8_t value = kValues[static_cast<unsigned char>(c)];
-    if (c == '=' ? digits < 2 : (value == kNone || padding > 0)) return std::nullopt;
+    if (c == '=' ? digits < 2 : (value == kNoDigit || padding > 0)) return std::nullopt;
     padding += c == '=' ? 1 : 0;
     bits = bits << 6 | (c == '=' ? 0U : static_cast<std::uint32_t>(value));
     if (++digits < 4) continue;

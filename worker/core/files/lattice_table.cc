@@ -155,8 +155,7 @@ std::unique_ptr<LatticeTable> make_lattice_table(FileFormat format, base::Atomic
 
 void check_places(FileFormat format, const LatticeGrid& lattice) {
   if (format != FileFormat::kVti || is_upright(lattice)) return;
-  throw CoreError(
-      CoreError::Code::kBadInput,
+  refuse(
       "the lattice is turned or sheared, and .vti has no place for that; take .vts, which holds the points");
 }
 

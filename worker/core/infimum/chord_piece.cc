@@ -21,12 +21,12 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/infimum/section_loops.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = PieceInput::kNone;
 constexpr std::size_t kMostSides = 64;  // bits of a word
 constexpr double kBeside = 1e-9;        // more than places are off by rounding
 
@@ -319,7 +319,7 @@ class PieceFinder::Work {
         const std::uint32_t other = in_.shell_of[in_.mesh.triangles[t][0]];
         return other != s && in_.shells[other].solid == solid_;
       });
-      if (exit == RayShooter::kNone) continue;
+      if (exit == kNone) continue;
       const std::uint32_t corner = corner_below(exit);
       if (corner != kNone) classes_.unite(shell_member(s), member_of(corner));
     }

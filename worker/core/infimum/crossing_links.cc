@@ -34,7 +34,7 @@ class Linking {
 
   void begin_line(std::uint32_t n) {
     const auto& [i, j] = pairs_[n];
-    linked_[n] = {i, j, {CrossingPair::kNone, CrossingPair::kNone}};
+    linked_[n] = {i, j, {kNone, kNone}};
     const Triangle &a = mesh_.triangles[i], &b = mesh_.triangles[j];
     const auto shared = std::ranges::find_first_of(a, b);
     if (shared != a.end()) linked_[n].links.fill(*shared);

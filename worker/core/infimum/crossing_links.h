@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesh_topology.h"
 
@@ -13,8 +14,6 @@ namespace affskel::core {
 /// Two triangles that pass through each other: the parts of a solid below a plane that they belong to are one as soon
 /// as both have begun, that is, have corners below it.
 struct CrossingPair {
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   std::uint32_t first = 0, second = 0;
   /// Vertices of `second`: where one of them lies below a plane, the pair joins nothing that the surface and the other
   /// pairs do not.  The same one twice, or none, where a line of pairs begins.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/groups.h"
+#include "core/base/none.h"
 #include "core/infimum/crossing_links.h"
 #include "core/infimum/four_tree.h"
 #include "core/mesh/mesh.h"
@@ -39,8 +40,7 @@ class CrossingPairs {
     const auto meets = [&](const FourBoxes& boxes) { return plane.passes(boxes); };
     for (const std::uint32_t n : tree_.select(meets, lists)) {
       const CrossingPair& pair = pairs_[n];
-      if (pair.links[0] == CrossingPair::kNone || !(below(pair.links[0]) || below(pair.links[1])))
-        visit(pair);
+      if (pair.links[0] == kNone || !(below(pair.links[0]) || below(pair.links[1]))) visit(pair);
     }
   }
 

@@ -18,7 +18,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNoSaddle = LeastChord::kNone;
 constexpr int kMaxSteps = 60;
 constexpr double kAcrossPromise = 1.2;  // DescentBound::promise
 constexpr int kMaxShorter = 6;          // of a step
@@ -86,7 +85,7 @@ class ChordDescent::Work {
   LeastChord go_down(const LeastChord& start, const DescentBound& bound) {
     active_.clear();
     for (const std::uint32_t s : start.saddles) {
-      if (s != kNoSaddle) active_.push_back(s);
+      if (s != kNone) active_.push_back(s);
     }
     return go_down(touching(start.normal), bound);
   }
@@ -113,14 +112,13 @@ class ChordDescent::Work {
       if (other.erosion < best.erosion) best = other;
     };
     for (std::size_t i = 0; i < 2; ++i) {
-      if (least.saddles[i] == kNoSaddle) continue;
+      if (least.saddles[i] == kNone) continue;
       active_.clear();
-      if (least.saddles[1 - i] != kNoSaddle) active_.push_back(least.saddles[1 - i]);
+      if (least.saddles[1 - i] != kNone) active_.push_back(least.saddles[1 - i]);
       const Vec3 y = from_x(least.saddles[i]);
-      const Vec3 d = touching(least.normal - (kAcross / core::dot(y, y)) * y);
+      const Vec3 d = touching(least.normal - (kAcross / dot(y, y)) * y);
       const double none = std::numeric_limits<double>::infinity();
-      if (core::dot(d, y) < -kTouchHeight)
-        keep(go_down(d, {none, best.erosion * (1 - kWorth), kAcrossPromise}));
+      if (dot(d, y) < -kTouchHeight) keep(go_down(d, {none, best.erosion * (1 - kWorth), kAcrossPromise}));
     }
     for (const std::uint32_t saddle : others) {
       const Vec3 d = touch_beside(saddle, least);
@@ -146,26 +144,25 @@ class ChordDescent::Work {
     Vec3 best = touching(least.normal);
     if (holds(best, least)) return best;
     double nearest = -1;
-    std::uint32_t second = kNoSaddle;
+    std::uint32_t second = kNone;
     for (const std::uint32_t held : least.saddles) {
-      if (held == kNoSaddle) continue;
+      if (held == kNone) continue;
       active_ = {saddle, held};
       const Vec3 d = touching(least.normal);
-      const double cosine = core::dot(d, least.normal);
+      const double cosine = dot(d, least.normal);
       if (cosine <= nearest || !holds(d, least)) continue;
       nearest = cosine;
       best = d;
       second = held;
     }
     active_.assign(1, saddle);
-    if (second != kNoSaddle) active_.push_back(second);
+    if (second != kNone) active_.push_back(second);
     return best;
   }
 
   bool holds(const Vec3& d, const LeastChord& least) const {
-    return std::all_of(least.saddles.begin(), least.saddles.end(), [&](std::uint32_t s) {
-      return s == kNoSaddle || core::dot(d, from_x(s)) >= -kTouchHeight;
-    });
+    return std::all_of(least.saddles.begin(), least.saddles.end(),
+                       [&](std::uint32_t s) { return s == kNone || dot(d, from_x(s)) >= -kTouchHeight; });
   }
 
   LeastChord result() const {
@@ -182,23 +179,23 @@ class ChordDescent::Work {
   Vec3 from_x(std::uint32_t vertex) const { return in_.mesh.points[vertex] - x_; }
   Flat flat(std::uint32_t vertex) const {
     const Vec3 y = from_x(vertex);
-    return {core::dot(piece_.u, y), core::dot(piece_.w, y)};
+    return {dot(piece_.u, y), dot(piece_.w, y)};
   }
 
   // The unit vector nearest to d of a plane that touches the active saddles.
   Vec3 touching(Vec3 d) const {
     if (active_.size() == 2) {
-      const Vec3 normal = core::cross(from_x(active_[0]), from_x(active_[1]));
-      const double size = core::norm(normal);
-      if (size > kParallel * core::norm(from_x(active_[0])) * core::norm(from_x(active_[1]))) {
-        return (core::dot(normal, d) < 0 ? -1 / size : 1 / size) * normal;
+      const Vec3 normal = cross(from_x(active_[0]), from_x(active_[1]));
+      const double size = norm(normal);
+      if (size > kParallel * norm(from_x(active_[0])) * norm(from_x(active_[1]))) {
+        return (dot(normal, d) < 0 ? -1 / size : 1 / size) * normal;
       }
     }
     if (!active_.empty()) {
       const Vec3 s = from_x(active_[0]);
-      for (int twice = 0; twice < 2; ++twice) d = d - (core::dot(d, s) / core::dot(s, s)) * s;
+      for (int twice = 0; twice < 2; ++twice) d = d - (dot(d, s) / dot(s, s)) * s;
     }
-    return (1 / core::norm(d)) * d;
+    return (1 / norm(d)) * d;
   }
 
   // The sum of the active saddles' multipliers.
@@ -341,9 +338,9 @@ class ChordDescent::Work {
     const PieceFinder::Joins joins = finder_.joins_at(vertex);
     if (joins != PieceFinder::Joins::unknown) return joins == PieceFinder::Joins::yes;
     const Vec3 s = from_x(vertex);
-    const Vec3 d = d_ - (kBeyond / core::dot(s, s)) * s;
-    const ChordPiece beyond = find((1 / core::norm(d)) * d);
-    const double smooth = kBeyond / core::norm(s) * norm(piece_.gradient);
+    const Vec3 d = d_ - (kBeyond / dot(s, s)) * s;
+    const ChordPiece beyond = find((1 / norm(d)) * d);
+    const double smooth = kBeyond / norm(s) * norm(piece_.gradient);
     return valid(beyond) && beyond.volume > piece_.volume * (1 + kJump) + 2 * smooth;
   }
 

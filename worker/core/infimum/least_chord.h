@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/infimum/piece_input.h"
 
@@ -14,8 +15,6 @@ class SaddleSearch;
 
 /// A plane through x whose piece is the least of all planes near it.
 struct LeastChord {
-  static constexpr std::uint32_t kNone = PieceInput::kNone;
-
   double erosion = std::numeric_limits<double>::infinity();  ///< volume of the piece, scaled units
   double area = 0;                                           ///< of its lids
   double slope = 0;                                          ///< |grad E|: area plus the saddles' multipliers

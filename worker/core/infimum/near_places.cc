@@ -29,12 +29,12 @@ NearPlaces::NearPlaces(const LatticeGrid& grid, const LatticeNeighbours& around,
   for (std::size_t i = 0; i < kOneStep; ++i) point_[i] = around[point][i];
   for (std::size_t n = 0; n < kSteps.size(); ++n) {
     const auto [i, j] = kSteps[n];
-    const std::uint32_t by_i = point_[i] != kNobody ? around[point_[i]][j] : kNobody;
-    const std::uint32_t by_j = point_[j] != kNobody ? around[point_[j]][i] : kNobody;
-    point_[kOneStep + n] = by_i != kNobody ? by_i : by_j;
-    open_[kOneStep + n] = {by_i != kNobody, by_j != kNobody};
+    const std::uint32_t by_i = point_[i] != kNone ? around[point_[i]][j] : kNone;
+    const std::uint32_t by_j = point_[j] != kNone ? around[point_[j]][i] : kNone;
+    point_[kOneStep + n] = by_i != kNone ? by_i : by_j;
+    open_[kOneStep + n] = {by_i != kNone, by_j != kNone};
   }
-  for (std::size_t n = 0; n < kMost; ++n) erosion_[n] = point_[n] != kNobody ? least[point_[n]].erosion : 0;
+  for (std::size_t n = 0; n < kMost; ++n) erosion_[n] = point_[n] != kNone ? least[point_[n]].erosion : 0;
 }
 
 Vec3 NearPlaces::way(std::size_t place) const {

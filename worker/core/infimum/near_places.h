@@ -5,19 +5,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/infimum/least_chord.h"
 #include "core/lattice/lattice.h"
 
 namespace affskel::core {
 
-/// Per sample point the next ones within the solid, by axis, first the one with the greater index; kNobody.
+/// Per sample point the next ones within the solid, by axis, first the one with the greater index; kNone.
 using LatticeNeighbours = std::vector<std::array<std::uint32_t, 6>>;
 
 /// The sample points that are one or two lattice steps within the solid away from one, x.
 class NearPlaces {
  public:
-  static constexpr std::uint32_t kNobody = 0xFFFFFFFFU;
   static constexpr std::size_t kMost = 24;
 
   /// @param least what is known at all points.
@@ -28,7 +28,7 @@ class NearPlaces {
   template <class Visit>
   void for_each(Visit visit) const {
     for (std::size_t n = 0; n < kMost; ++n) {
-      if (point_[n] != kNobody) visit(point_[n], way(n));
+      if (point_[n] != kNone) visit(point_[n], way(n));
     }
   }
 
@@ -40,8 +40,8 @@ class NearPlaces {
   Vec3 way(std::size_t place) const;
 
   const std::array<Vec3, 3> axes_;
-  std::array<std::uint32_t, kMost> point_;       // first those one step away, see steps() in the source
-  std::array<double, kMost> erosion_;            // there; 0 for kNobody
+  std::array<std::uint32_t, kMost> point_;       // first those one step away, see kSteps in the source
+  std::array<double, kMost> erosion_;            // there; 0 for kNone
   std::array<std::array<bool, 2>, kMost> open_;  // of two steps: whether one can go either way
 };
 

@@ -34,8 +34,8 @@ DoubleSum restored(std::uint64_t value) {
 // The vertices in preorder.
 std::vector<std::uint32_t> preorder_of(const BreadthFirstTrees& trees) {
   const std::vector<std::uint32_t>& parent = trees.parent;
-  std::vector<std::uint32_t> first_child(parent.size(), PieceInput::kNone),
-      next_sibling(parent.size(), PieceInput::kNone), order, stack;
+  std::vector<std::uint32_t> first_child(parent.size(), kNone), next_sibling(parent.size(), kNone), order,
+      stack;
   for (const std::uint32_t v : trees.order) {
     if (parent[v] != v) next_sibling[v] = std::exchange(first_child[parent[v]], v);
   }
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> preorder_of(const BreadthFirstTrees& trees) {
       const std::uint32_t v = stack.back();
       stack.pop_back();
       order.push_back(v);
-      for (std::uint32_t c = first_child[v]; c != PieceInput::kNone; c = next_sibling[c]) stack.push_back(c);
+      for (std::uint32_t c = first_child[v]; c != kNone; c = next_sibling[c]) stack.push_back(c);
     }
   }
   return order;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/groups.h"
+#include "core/base/none.h"
 #include "core/infimum/crossing_pairs.h"
 #include "core/infimum/four_tree.h"
 #include "core/mesh/mesh.h"
@@ -37,11 +38,9 @@ struct SurfaceSums {
 /// What all planes through a solid share, for PieceFinder.  Immutable; threads share it.
 ///
 /// Vertices and triangles are numbered anew, so that neighbours are near in memory.  Each shell has a spanning
-/// tree of its vertices; in its preorder those below one are an interval.  A set of vertices that is connected in the tree is a difference of such intervals, so that
-/// its sums are known from the tree edges that leave it.
+/// tree of its vertices; in its preorder those below one are an interval.  A set of vertices that is connected in the
+/// tree is a difference of such intervals, so that its sums are known from the tree edges that leave it.
 struct PieceInput {
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   struct Shell {
     std::uint32_t root = 0;   ///< its first vertex
     std::uint32_t solid = 0;  ///< the solid it bounds; the least one of those that pass through each other

@@ -12,7 +12,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNobody = NearPlaces::kNobody;
 constexpr std::size_t kBlock = 64;  // points that a thread takes at once
 
 constexpr double kSeedRounding = 1e-9;  // seeds have 36 bits
@@ -39,7 +38,7 @@ Refinement::Refinement(const PieceInput& input, const Lattice& lattice, unsigned
   std::vector<std::uint32_t> all(lattice.points);
   std::iota(all.begin(), all.end(), 0U);
   places_ = lattice_places(lattice, all);
-  for (auto& around : around_) around.fill(kNobody);
+  for (auto& around : around_) around.fill(kNone);
   for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto&) {
     around_[x][2 * axis] = y;
     around_[y][2 * axis + 1] = x;
@@ -101,7 +100,7 @@ void Refinement::find_first_rounds() {
     for (std::uint32_t p = 0; p < around_.size(); ++p) {
       if (odd(p) != odds) continue;
       for (const std::uint32_t q : around_[p]) {
-        if (q != kNobody && odd(q) < odds) first_[p] = std::max<std::uint8_t>(first_[p], first_[q] + 1);
+        if (q != kNone && odd(q) < odds) first_[p] = std::max<std::uint8_t>(first_[p], first_[q] + 1);
       }
     }
   }
@@ -111,9 +110,9 @@ void Refinement::find_first_rounds() {
 // Whether the round before changed something one or two steps away.
 bool Refinement::has_news(std::uint32_t p, int round) const {
   return std::ranges::any_of(around_[p], [&](std::uint32_t q) {
-    return q != kNobody && (is_news(q, round) || std::ranges::any_of(around_[q], [&](std::uint32_t r) {
-                              return r != kNobody && r != p && is_news(r, round);
-                            }));
+    return q != kNone && (is_news(q, round) || std::ranges::any_of(around_[q], [&](std::uint32_t r) {
+                            return r != kNone && r != p && is_news(r, round);
+                          }));
   });
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/none.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/field.h"
 #include "core/infimum/least_chord.h"
@@ -77,7 +78,7 @@ class Refinement {
   void each_of(std::size_t count, ExecutionContext& context, const Body& body);
   void find_first_rounds();
   bool has_begun(std::uint32_t neighbour, int round) const {
-    return neighbour != NearPlaces::kNobody && first_[neighbour] < round;
+    return neighbour != kNone && first_[neighbour] < round;
   }
   bool is_news(std::uint32_t near_point, int round) const {
     return round == look_round_ || round_[near_point] + 1 == round;

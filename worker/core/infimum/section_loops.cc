@@ -111,7 +111,7 @@ void SectionLoops::trace(std::uint32_t start) {
     const PieceInput::Passage& passage = in_.passages[h];
     edge->number = passage.edge;
     edge->low = low.vertex;
-    edge += passage.edge != PieceInput::kNone;
+    edge += passage.edge != kNone;
     const Corner apex = corner(passage.apex, x, d, axes);
     double alone = 0;  // height of the corner that is alone
     // A branch, so that processors go on with a guess: to wait for the height takes longer.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/infimum/piece_input.h"
 
@@ -104,7 +105,7 @@ class SectionLoops {
   /// @param of_lid which loops there are.
   template <class OfLid>
   std::uint32_t loop_right_of(const PlanePoint& start, OfLid of_lid) const {
-    std::uint32_t nearest = PieceInput::kNone;
+    std::uint32_t nearest = kNone;
     double least = std::numeric_limits<double>::infinity();
     int winding = 0;
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
@@ -116,7 +117,7 @@ class SectionLoops {
         nearest = l;
       });
     }
-    return winding > 0 ? nearest : PieceInput::kNone;
+    return winding > 0 ? nearest : kNone;
   }
 
  private:

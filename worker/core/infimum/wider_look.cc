@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/infimum/saddle_search.h"
 #include "core/infimum/section_loops.h"
 
@@ -85,7 +86,7 @@ class Look {
   std::span<Saddle> known_saddles() { return std::span(saddles_).first(count_); }
 
   void add(std::uint32_t vertex, bool anew) {
-    if (vertex == LeastChord::kNone) return;
+    if (vertex == kNone) return;
     const auto known = known_saddles();
     const auto there = std::ranges::find_if(known, [&](const Saddle& s) { return s.of->vertex == vertex; });
     if (there != known.end()) {

@@ -196,8 +196,7 @@ double wanted_spacing(const Solid& solid, const LatticeOptions& options) {
     return cube_root(solid.volume / static_cast<double>(options.target_points));
   }
   if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "the spacing must be a finite number > 0, not " + base::to_text(options.spacing));
+    refuse("the spacing must be a finite number > 0, not " + base::to_text(options.spacing));
   }
   return options.spacing;
 }
@@ -255,7 +254,7 @@ Plan plan_lattice(const Solid& solid, const FrameBox& box, const LatticeOptions&
 // The least spacing within the limits: (v0 / max_points)^(1/3), or the one that has max_lines lines.
 double least_spacing(const Solid& solid, const FrameBox& box, const LatticeOptions& options) {
   const double by_points = cube_root(solid.volume / static_cast<double>(options.max_points));
-  const double longest = std::max({box.sides.x, box.sides.y, box.sides.z});
+  const double longest = largest_component(box.sides);
   const Vec3 s = (1 / longest) * box.sides;
   const double sum = s.x + s.y + s.z, area = s.x * s.y + s.y * s.z + s.z * s.x;
   const double lines = static_cast<double>(options.max_lines) - 3;
@@ -292,22 +291,19 @@ Lattice lattice_at(const Solid& solid, const FrameBox& box, const LatticeOptions
   Lattice lattice = LatticeBuilder(solid, plan.grid, options).run();
   lattice.spacing = spacing;
   if (lattice.points == 0) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "no lattice point falls inside the solid: spacing " + base::rounded(spacing, 3) +
-                        " is too coarse for a volume of " + base::rounded(solid.volume, 3));
+    refuse("no lattice point falls inside the solid: spacing " + base::rounded(spacing, 3) +
+           " is too coarse for a volume of " + base::rounded(solid.volume, 3));
   }
   return lattice;
 }
 
 }  // namespace
 
-Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads,
-                     ExecutionContext* context) {
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads) {
   for (std::uint32_t n : grid.dims) {
-    if (n == 0 || n > (1U << 30))
-      throw CoreError(CoreError::Code::kBadInput, "a side of the lattice has no or too many points");
+    if (n == 0 || n > (1U << 30)) refuse("a side of the lattice has no or too many points");
   }
-  return LatticeBuilder(solid, grid, {.threads = threads, .context = context}).run();
+  return LatticeBuilder(solid, grid, {.threads = threads}).run();
 }
 
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options) {

@@ -106,7 +106,6 @@ void check_lattice(const Solid& solid, FrameKind kind, LatticeOptions options);
 std::optional<std::uint32_t> lattice_points(const Solid& solid, const LatticeOptions& options);
 
 /// The same for a given grid in scaled coordinates; axes need not be orthogonal or of equal length.
-Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads = 1,
-                     ExecutionContext* context = nullptr);
+Lattice make_lattice(const Solid& solid, const LatticeGrid& grid, unsigned threads = 1);
 
 }  // namespace affskel::core

@@ -7,7 +7,7 @@ namespace affskel::core {
 
 LayerIndex::LayerIndex(const Lattice& lattice) : lattice_(lattice) {
   const auto& dims = lattice.grid.dims;
-  for (auto& layer : layers_) layer.assign(std::size_t{dims[1]} * dims[2], kOutside);
+  for (auto& layer : layers_) layer.assign(std::size_t{dims[1]} * dims[2], kNone);
 }
 
 void LayerIndex::move_to(std::uint32_t i) {
@@ -24,7 +24,7 @@ void LayerIndex::fill(std::uint32_t i) {
   // Only what i - 3 left there is wiped out: most of the box may be empty.
   RunRange& filled = filled_[i % 3];
   for (std::size_t r = filled.first; r < filled.last; ++r) {
-    std::fill_n(begin_of(runs[r]), runs[r].length, kOutside);
+    std::fill_n(begin_of(runs[r]), runs[r].length, kNone);
   }
   filled.first = next_;
   for (; next_ < runs.size() && runs[next_].start[0] == i; ++next_) {

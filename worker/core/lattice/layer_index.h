@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/lattice/lattice.h"
 
 namespace affskel::core {
@@ -13,18 +14,15 @@ namespace affskel::core {
 /// lattice and look at the 26 neighbours.  Keeps a reference to the lattice.
 class LayerIndex {
  public:
-  /// No sample point stands there.
-  static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
-
   explicit LayerIndex(const Lattice& lattice);
 
   /// Makes i - 1, i and i + 1 available; i must grow by one from call to call, starting at 0.
   void move_to(std::uint32_t i);
 
-  /// Rank of the sample point, or kOutside; i as made available, j and k may lie outside the lattice's box.
+  /// Rank of the sample point, or kNone; i as made available, j and k may lie outside the lattice's box.
   std::uint32_t at(std::int64_t i, std::int64_t j, std::int64_t k) const {
     const auto& dims = lattice_.grid.dims;
-    if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2]) return kOutside;
+    if (i < 0 || j < 0 || k < 0 || i >= dims[0] || j >= dims[1] || k >= dims[2]) return kNone;
     return layers_[static_cast<std::size_t>(i) % 3][static_cast<std::size_t>(j * dims[2] + k)];
   }
 

@@ -69,7 +69,7 @@ class Scanner {
   void transform(const LatticeGrid& grid) {
     const auto& a = grid.axes;
     const double det = dot(a[0], cross(a[1], a[2]));
-    if (det == 0) throw CoreError(CoreError::Code::kBadInput, "the axes of the lattice are not independent");
+    if (det == 0) refuse("the axes of the lattice are not independent");
     const std::array<Vec3, 3> rows = {cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
     left_handed_ = det < 0;
     coordinates_.resize(mesh_.points.size());

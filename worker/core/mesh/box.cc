@@ -34,6 +34,11 @@ Box box_of(const Mesh& mesh) {
   return box;
 }
 
+double box_diagonal(const Mesh& mesh) {
+  if (mesh.points.empty()) return 0;
+  return (mesh.triangles.empty() ? box_of(mesh.points) : box_of(mesh)).diagonal();
+}
+
 std::vector<Box> boxes_of(const Mesh& mesh) {
   std::vector<Box> boxes;
   boxes.reserve(mesh.triangles.size());

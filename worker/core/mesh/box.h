@@ -53,6 +53,10 @@ Box box_of(const Mesh& mesh, const Triangle& triangle);
 /// Tightest box round all triangles.
 Box box_of(const Mesh& mesh);
 
+/// Length of the diagonal of the tightest axis-parallel box round the points that triangles use (round all
+/// points when there are no triangles), mesh units.
+double box_diagonal(const Mesh& mesh);
+
 /// The boxes of all triangles of a mesh.
 std::vector<Box> boxes_of(const Mesh& mesh);
 

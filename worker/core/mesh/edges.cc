@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/none.h"
+
 namespace affskel::core {
 
 Edges::Edges(std::size_t points, std::span<const Triangle> triangles, unsigned threads)
@@ -45,7 +47,6 @@ Adjacency neighbours(std::size_t points, std::span<const Segment> segments) {
 }
 
 BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triangle> triangles) {
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   const Adjacency around = neighbours(points, triangles);
   BreadthFirstTrees trees{{}, std::vector<std::uint32_t>(points, kNone)};
   const auto reach = [&](std::uint32_t vertex, std::uint32_t from) {

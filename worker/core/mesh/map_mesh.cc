@@ -13,8 +13,7 @@ Mesh map_mesh(const AffineMap& map, const Mesh& mesh) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const Vec3 p = result.points[v] = map(mesh.points[v]);
     if (!is_finite(p)) {
-      throw CoreError(CoreError::Code::kBadInput,
-                      "the map takes vertex " + std::to_string(v) + " out of the range of a double");
+      refuse("the map takes vertex " + std::to_string(v) + " out of the range of a double");
     }
   }
   if (determinant(map) < 0) {

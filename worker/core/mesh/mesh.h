@@ -40,14 +40,18 @@ inline Vec3 twice_area(const Mesh& mesh, const Triangle& t) {
   return cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
 }
 
+/// Of the tetrahedron o, a, b, c: six times its volume; positive where a, b, c turn counter-clockwise seen from beyond
+/// them.
+inline double six_volumes(const Vec3& o, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return dot(a - o, cross(b - o, c - o));
+}
+
 /// Of a closed mesh, negative where it is inside out.  The sum of the tetrahedra from the first vertex: near the mesh, so
 /// that little cancels.
 inline double enclosed_volume(const Mesh& mesh) {
   double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& o = mesh.points.front();
-    sum += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
-  }
+  for (const Triangle& t : mesh.triangles)
+    sum += six_volumes(mesh.points.front(), mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
   return sum / 6;
 }
 

@@ -8,12 +8,11 @@
 #include "base/number_text.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
+#include "core/base/none.h"
 #include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 std::uint32_t previous_corner(std::uint32_t h) {
   return h % 3 == 0 ? h + 2 : h - 1;
@@ -72,7 +71,7 @@ class EdgeDefects {
     if (open_.count != 0)
       message +=
           "; fill its holes first, by affskel-client repair, MeshLab's Close Holes or Blender's Fill Holes";
-    throw CoreError(CoreError::Code::kBadInput, message);
+    refuse(message);
   }
 
  private:
@@ -177,9 +176,8 @@ std::vector<std::uint32_t> orient_consistently(Mesh& mesh, HalfEdges& mates, con
           wrong += wanted == 2;
           surface.push_back(other);
         } else if (side[other] != wanted) {
-          throw CoreError(CoreError::Code::kBadInput,
-                          "the mesh does not bound a solid: the surface through " + place(other) +
-                              " has only one side (not orientable)");
+          refuse("the mesh does not bound a solid: the surface through " + place(other) +
+                 " has only one side (not orientable)");
         }
       }
     }

@@ -43,15 +43,9 @@ class Gaussian {
 
 }  // namespace
 
-double box_diagonal(const Mesh& mesh) {
-  if (mesh.points.empty()) return 0;
-  return (mesh.triangles.empty() ? box_of(mesh.points) : box_of(mesh)).diagonal();
-}
-
 Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
   if (!(options.sigma >= 0) || !std::isfinite(options.sigma)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "the noise must be a finite number >= 0, not " + base::to_text(options.sigma));
+    refuse("the noise must be a finite number >= 0, not " + base::to_text(options.sigma));
   }
   const std::vector<std::uint32_t> first = first_coincident_point(mesh.points);
   Gaussian gaussian(options.seed);
@@ -64,8 +58,7 @@ Mesh perturb(const Mesh& mesh, const PerturbOptions& options) {
     const double x = gaussian.next(), y = gaussian.next(), z = gaussian.next();
     const Vec3 moved = mesh.points[v] + options.sigma * Vec3{x, y, z};
     if (!is_finite(moved)) {
-      throw CoreError(CoreError::Code::kBadInput,
-                      "the noise takes vertex " + std::to_string(v) + " out of the range of a double");
+      refuse("the noise takes vertex " + std::to_string(v) + " out of the range of a double");
     }
     result.points[v] = moved;
   }

@@ -11,10 +11,6 @@ struct PerturbOptions {
   std::uint64_t seed = 1;  ///< same seed, same noise, on every machine
 };
 
-/// Length of the diagonal of the tightest axis-parallel box round the points that triangles use (round all
-/// points when there are no triangles), mesh units.
-double box_diagonal(const Mesh& mesh);
-
 /// The mesh with Gaussian noise: every place that is a vertex moves by sigma N(0, 1) in x, y and z,
 /// independently.  Vertices at the same place move together, so that a closed surface stays closed; places
 /// draw their numbers in the order of their first vertex.  Marsaglia's polar method on SplitMix64, the

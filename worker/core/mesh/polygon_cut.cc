@@ -137,8 +137,7 @@ Unevenness unevenness(std::span<const Vec3> points, std::span<const std::uint32_
   Unevenness found;
   if (corners.size() == 4) {
     const Vec3& a = points[corners[0]];
-    found.volume =
-        std::abs(dot(points[corners[1]] - a, cross(points[corners[2]] - a, points[corners[3]] - a))) / 6;
+    found.volume = std::abs(six_volumes(a, points[corners[1]], points[corners[2]], points[corners[3]])) / 6;
   }
   if (!(length > 0)) return found;
   Vec3 mean;

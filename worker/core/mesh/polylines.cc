@@ -60,4 +60,17 @@ std::vector<std::vector<std::uint32_t>> polylines(std::size_t points, std::span<
   return Chainer(points, segments).run();
 }
 
+std::vector<std::uint32_t> ends_of(std::size_t points, std::span<const std::vector<std::uint32_t>> lines) {
+  std::vector<std::uint32_t> ends(points, 0);
+  for (const auto& line : lines)
+    for (const std::uint32_t point : {line.front(), line.back()}) ++ends[point];
+  return ends;
+}
+
+double length_of(std::span<const Vec3> places, std::span<const std::uint32_t> line) {
+  double length = 0;
+  for (std::size_t n = 1; n < line.size(); ++n) length += norm(places[line[n]] - places[line[n - 1]]);
+  return length;
+}
+
 }  // namespace affskel::core

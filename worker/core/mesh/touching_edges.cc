@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 
 namespace affskel::core {
 namespace {
@@ -141,7 +142,6 @@ std::uint32_t separate_touching_edges(Mesh& mesh) {
         for (const auto& [a, b] : mated)
           for (const std::uint32_t end : {low, high}) corners.unite(corner_at(a, end), corner_at(b, end));
       });
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   const auto points = static_cast<std::uint32_t>(mesh.points.size());
   std::vector<std::uint32_t> vertex_of(3 * mesh.triangles.size(), kNone);  // by the first corner of a set
   std::vector<bool> taken(points, false);

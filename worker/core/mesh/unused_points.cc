@@ -1,5 +1,7 @@
 #include "core/mesh/unused_points.h"
 
+#include "core/base/none.h"
+
 namespace affskel::core {
 
 std::vector<std::uint32_t> drop_unused_points(Mesh& mesh) {
@@ -25,13 +27,12 @@ std::vector<std::uint32_t> drop_unused_points(Mesh& mesh) {
 }
 
 Mesh numbered_by_first_use(const Mesh& mesh) {
-  constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> number(mesh.points.size(), kUnused);
+  std::vector<std::uint32_t> number(mesh.points.size(), kNone);
   Mesh out;
   out.triangles = mesh.triangles;
   for (Triangle& t : out.triangles) {
     for (std::uint32_t& v : t) {
-      if (number[v] == kUnused) {
+      if (number[v] == kNone) {
         number[v] = static_cast<std::uint32_t>(out.points.size());
         out.points.push_back(mesh.points[v]);
       }

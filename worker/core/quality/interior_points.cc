@@ -110,9 +110,8 @@ std::vector<Vec3> interior_points(const Solid& solid, std::uint32_t count) {
   TurnedSolid turned(solid, frame);
   const std::vector<Interval> intervals = inside_intervals(turned, count);
   if (intervals.empty()) {
-    throw CoreError(CoreError::Code::kBadInput, "the solid is so thin that none of " +
-                                                    std::to_string(std::uint64_t{8} * count) +
-                                                    " lines through its box meets its inside");
+    refuse("the solid is so thin that none of " + std::to_string(std::uint64_t{8} * count) +
+           " lines through its box meets its inside");
   }
   std::vector<Vec3> points = spread(intervals, count);
   for (Vec3& p : points) p = solid.centre + solid.scale() * (frame * p);

@@ -35,7 +35,7 @@ std::vector<Vec3> lifted(std::span<const Vec3> points, int exponent) {
 
 DistanceCurve::DistanceCurve(std::span<const Vec3> from, std::span<const Vec3> to) {
   if (from.empty() || to.empty()) {
-    throw CoreError(CoreError::Code::kBadInput, "a set without points is near nothing");
+    refuse("a set without points is near nothing");
   }
   const int exponent = lift_of(from, to);
   const PointIndex index(lifted(to, exponent));

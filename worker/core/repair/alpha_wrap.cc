@@ -38,7 +38,7 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
 }  // namespace
 
 Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
-  if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "there is nothing to wrap");
+  if (mesh.points.empty()) refuse("there is nothing to wrap");
   std::vector<Point> points;
   for (const Vec3& p : mesh.points) points.emplace_back(p.x, p.y, p.z);
   std::vector<std::array<std::size_t, 3>> triangles;
@@ -47,7 +47,7 @@ Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
     if (!CGAL::collinear(points[t[0]], points[t[1]], points[t[2]])) triangles.push_back({t[0], t[1], t[2]});
   }
   if (triangles.empty() && !mesh.triangles.empty())
-    throw CoreError(CoreError::Code::kBadInput, "no triangle has an area, so there is nothing to wrap");
+    refuse("no triangle has an area, so there is nothing to wrap");
   SurfaceMesh wrap;
   StopVisitor visitor(options.context);
   const auto given = CGAL::parameters::default_values();
@@ -58,8 +58,7 @@ Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
     CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, wrap, given, stop);
   }
   Mesh wrapped = mesh_of(wrap);
-  if (wrapped.triangles.empty())
-    throw CoreError(CoreError::Code::kBadInput, "the wrap is empty; take a smaller alpha");
+  if (wrapped.triangles.empty()) refuse("the wrap is empty; take a smaller alpha");
   const std::vector<Vec3> normals = vertex_normals(wrapped);
   for (std::size_t v = 0; v < wrapped.points.size(); ++v)
     wrapped.points[v] = wrapped.points[v] - options.offset * normals[v];

@@ -17,6 +17,7 @@
 
 #include "base/number_text.h"
 #include "core/base/error.h"
+#include "core/base/median.h"
 #include "core/mesh/box.h"
 #include "core/shapes/implicit_mesh.h"
 #include "core/shapes/surface_mesh.h"
@@ -40,7 +41,7 @@ constexpr double kCube = 1.25;       // edge of the cubes in which the surface i
 constexpr double kMostCubes = 1 << 24;
 constexpr double kFar = 3;                  // spacings from each point
 constexpr double kMostUnseen = 0.25;        // of the surface: five times what scans of bodies leave open
-constexpr double kFlat = 1e-9;              // thickness of what is a plane, of the box's diagonal
+constexpr double kPlaneCloud = 1e-9;        // thickness of what is a plane, of the box's diagonal
 constexpr std::uint64_t kOperations = 100;  // to find a value, some nanoseconds each
 
 using Vector = Kernel::Vector_3;
@@ -95,10 +96,8 @@ class Surfacing {
  private:
   static void check(const std::vector<Point>& places) {
     if (places.size() < kFewest) {
-      throw CoreError(CoreError::Code::kBadInput,
-                      std::to_string(places.size()) +
-                          " points at different places are too few to tell a surface; " +
-                          std::to_string(kFewest) + " are needed at least");
+      refuse(std::to_string(places.size()) + " points at different places are too few to tell a surface; " +
+             std::to_string(kFewest) + " are needed at least");
     }
     // The widest triangle on the first point: on a line it has no area.
     const Point& first = places.front();
@@ -110,15 +109,14 @@ class Surfacing {
     const auto area = [&](const Point& p) { return CGAL::cross_product(along, p - first); };
     const Vector plane = area(farthest([&](const Point& p) { return area(p).squared_length(); }));
     const auto height = [&](const Point& p) { return std::fabs(plane * (p - first)); };
-    if (height(farthest(height)) <= kFlat * std::sqrt(plane.squared_length()))
-      throw CoreError(CoreError::Code::kBadInput, "all points lie in one plane");
+    if (height(farthest(height)) <= kPlaneCloud * std::sqrt(plane.squared_length()))
+      refuse("all points lie in one plane");
   }
 
   void require_enough() const {
     if (cloud_.size() >= kFewest) return;
-    throw CoreError(CoreError::Code::kBadInput, "only " + std::to_string(cloud_.size()) +
-                                                    " points lie near others so that they tell a surface; " +
-                                                    std::to_string(kFewest) + " are needed at least");
+    refuse("only " + std::to_string(cloud_.size()) + " points lie near others so that they tell a surface; " +
+           std::to_string(kFewest) + " are needed at least");
   }
 
   auto parameters() const {
@@ -148,14 +146,12 @@ class Surfacing {
     for (std::size_t i = 0; i < count; ++i) asked.push_back(all[i * all.size() / count]);
     std::vector<std::size_t> scales;
     CGAL::estimate_local_k_neighbor_scales(all, asked, std::back_inserter(scales));
-    const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-    std::nth_element(scales.begin(), middle, scales.end());
-    const std::size_t cluster = std::max(*middle / kOfScale, (all.size() + kMost - 1) / kMost);
+    const std::size_t middle = median(std::move(scales));
+    const std::size_t cluster = std::max(middle / kOfScale, (all.size() + kMost - 1) / kMost);
     if (cluster < 2) return;
     if (all.size() / cluster < kFewest) {
-      throw CoreError(CoreError::Code::kBadInput,
-                      "the points are too noisy to tell a surface: only " + std::to_string(*middle) + " of " +
-                          std::to_string(all.size()) + " together look like a piece of one");
+      refuse("the points are too noisy to tell a surface: only " + std::to_string(middle) + " of " +
+             std::to_string(all.size()) + " together look like a piece of one");
     }
     cloud_.erase(
         CGAL::hierarchy_simplify_point_set(cloud_, parameters().size(static_cast<unsigned>(cluster))),
@@ -189,7 +185,7 @@ class Surfacing {
   Mesh zero_set() const {
     Poisson poisson(cloud_.begin(), cloud_.end(), Places(), Normals());
     if (!poisson.compute_implicit_function(Solver(), StopVisitor{context_}))
-      throw CoreError(CoreError::Code::kBadInput, "no surface can be laid through the points");
+      refuse("no surface can be laid through the points");
     const Box box = box_of(places());
     ImplicitMeshOptions cubes;
     const Vec3 sides = box.sides() + 16 * kCube * Vec3{1, 1, 1};
@@ -217,11 +213,9 @@ class Surfacing {
                                       [&](const Vec3& sample) { return index.nearest(sample) > kFar; });
     found.unseen = static_cast<double>(unseen) / static_cast<double>(samples.size());
     if (found.unseen > kMostUnseen) {
-      throw CoreError(CoreError::Code::kBadInput,
-                      "the points do not tell where the surface is: they are " +
-                          base::rounded(found.spacing, 4) + " apart, and no point is near " +
-                          base::rounded(100 * found.unseen, 3) +
-                          " % of the surface through them; more points would help");
+      refuse("the points do not tell where the surface is: they are " + base::rounded(found.spacing, 4) +
+             " apart, and no point is near " + base::rounded(100 * found.unseen, 3) +
+             " % of the surface through them; more points would help");
     }
     const DistanceToMesh surface(found.mesh);
     double sum = 0;

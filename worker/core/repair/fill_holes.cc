@@ -77,7 +77,7 @@ double cone_volume(const SurfaceMesh& surface, const std::vector<Face>& faces, c
   double volume = 0;
   for (const Face face : faces) {
     const std::vector<Vec3> p = points_of(surface, surface.halfedge(face));
-    volume += dot(p[0] - top, cross(p[1] - top, p[2] - top)) / 6;
+    volume += six_volumes(top, p[0], p[1], p[2]) / 6;
   }
   return volume;
 }

@@ -70,8 +70,7 @@ OrientedSoup orient_soup(const Mesh& mesh, ExecutionContext* context) {
       soup.points, soup.triangles,
       CGAL::parameters::erase_all_duplicates(false).require_same_orientation(false));
   PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
-  if (soup.triangles.empty())
-    throw CoreError(CoreError::Code::kBadInput, "no triangle with three different corners");
+  if (soup.triangles.empty()) refuse("no triangle with three different corners");
   Mesh split = core_mesh(soup);
   oriented.joined_points = join_near_points(split.points, split.triangles, context);
   drop_unused_points(split);

@@ -25,7 +25,7 @@ constexpr double kFinestWrap = 1.0 / 2000;  // of the box's diagonal: some five 
 constexpr double kSmallest = 1e-60, kLargest = 1e60;
 constexpr double kWrapOffset = 0.1;  // of alpha
 // Volume by area^(3/2): a ball 0.094, a rod fifty times as long as thick 0.03, a plate of 1 % 0.0035.
-constexpr double kFlat = 1e-3;
+constexpr double kNoVolume = 1e-3;
 // Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more than
 // 0.5 % off when these were filled were beyond it, of those with many holes none.
 constexpr double kToldBulge = 0.003;
@@ -56,8 +56,7 @@ class Mending {
   ///   wrapped by an alpha that suits its length, a film.
   RepairedMesh result(const RepairOptions& asked) {
     if (is_sheet_ && asked.alpha == 0 && asked.longest_hole == 0)
-      throw CoreError(
-          CoreError::Code::kBadInput,
+      refuse(
           "the mesh is an open sheet and flat, so that it bounds no volume; give it a thickness, by "
           "Blender's Solidify, say, or wrap it by an alpha of your own");
     return std::move(result_);
@@ -152,7 +151,7 @@ class Mending {
       if (rim[t[0]] || rim[t[1]] || rim[t[2]]) was_open[part] = true;
     }
     const auto is_flap = [&](std::uint32_t part) {
-      return was_open[part] && std::fabs(volume[part]) < kFlat * std::pow(area[part], 1.5);
+      return was_open[part] && std::fabs(volume[part]) < kNoVolume * std::pow(area[part], 1.5);
     };
     std::uint64_t flaps = 0, sound = 0;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -217,14 +216,12 @@ double surface_cloud(const std::vector<Vec3>& points, ExecutionContext* context,
 RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   const double finest = kFinestWrap * diagonal(mesh);
   if (options.alpha > 0 && options.alpha < finest) {
-    throw CoreError(CoreError::Code::kBadInput, "a wrap by alpha " + short_text(options.alpha) +
-                                                    " would be too fine; take " + short_text(1.01 * finest) +
-                                                    " or more");
+    refuse("a wrap by alpha " + short_text(options.alpha) + " would be too fine; take " +
+           short_text(1.01 * finest) + " or more");
   }
   if (options.alpha > diagonal(mesh)) {
-    throw CoreError(CoreError::Code::kBadInput, "a wrap by alpha " + short_text(options.alpha) +
-                                                    " would be a box round all of it; take " +
-                                                    short_text(0.1 * diagonal(mesh)) + " or less");
+    refuse("a wrap by alpha " + short_text(options.alpha) + " would be a box round all of it; take " +
+           short_text(0.1 * diagonal(mesh)) + " or less");
   }
   AlphaWrapOptions wrap;
   wrap.context = options.context;
@@ -266,13 +263,12 @@ void take_volume(RepairedMesh& result, const RepairOptions& options) {
 
 // Powers of lengths must not overflow, nor vanish.
 void check_size(const Mesh& mesh) {
-  if (mesh.points.empty()) throw CoreError(CoreError::Code::kBadInput, "the mesh has no points");
+  if (mesh.points.empty()) refuse("the mesh has no points");
   const double size = diagonal(mesh);
-  if (size == 0) throw CoreError(CoreError::Code::kBadInput, "all points lie at one place");
+  if (size == 0) refuse("all points lie at one place");
   if (!(size > kSmallest && size < kLargest)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "the mesh is " + short_text(size) +
-                        " long, from corner to corner of its box; change the unit of length");
+    refuse("the mesh is " + short_text(size) +
+           " long, from corner to corner of its box; change the unit of length");
   }
 }
 
@@ -280,7 +276,7 @@ void check_size(const Mesh& mesh) {
 
 bool is_flat_sheet(const Mesh& mesh) {
   constexpr double kNothing =
-      1e-6;  // volume by area^(3/2), as kFlat: single precision gives a flat sheet 1e-7
+      1e-6;  // volume by area^(3/2), as kNoVolume: single precision gives a flat sheet 1e-7
   return std::fabs(enclosed_volume(mesh)) < kNothing * std::pow(surface_area(mesh), 1.5);
 }
 

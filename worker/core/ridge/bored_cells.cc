@@ -1,6 +1,8 @@
 #include "core/ridge/bored_cells.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -99,10 +101,10 @@ BoredCells bored_cells(const NoisySolid& solid, const CellSet& left, std::span<c
   const DualComplex& complex = solid.complex;
   CellSet keep(complex);
   for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, keep);
-  BoredCells result{{}, left};
+  BoredCells result{{}, left, CellSet(complex)};
   while (true) {
-    const CellSet graph = collapsed(complex, result.left, {}, context);
-    const Openings openings(solid, result.left, graph, keep);
+    result.graph = collapsed(complex, result.left, {}, context);
+    const Openings openings(solid, result.left, result.graph, keep);
     std::vector<Cell> cells = openings.squares();
     if (cells.empty()) cells = openings.edges(context);
     if (cells.empty()) return result;
@@ -110,6 +112,24 @@ BoredCells bored_cells(const NoisySolid& solid, const CellSet& left, std::span<c
     result.left = collapsed(complex, result.left, anchors, context);
     result.cells.insert(result.cells.end(), cells.begin(), cells.end());
   }
+}
+
+BettiNumbers fill_bored(const NoisySolid& solid, const BettiNumbers& before, std::span<const Anchor> anchors,
+                        CellSet& left, ExecutionContext* context) {
+  BoredCells bored = bored_cells(solid, left, anchors, context);
+  if (bored.cells.empty()) return before;
+  left = std::move(bored.left);
+  // Counted: a square that has one void on both sides bounds none, and leaves a loop when it goes.
+  std::array<std::uint64_t, 3> count{};
+  bored.graph.for_each([&](Cell cell) { ++count[static_cast<std::size_t>(DualComplex::dimension(cell))]; });
+  BettiNumbers after = before;
+  const auto squares = static_cast<std::uint64_t>(std::count_if(
+      bored.cells.begin(), bored.cells.end(), [](Cell cell) { return DualComplex::dimension(cell) == 2; }));
+  after.cavities = count[2] == 0 ? 0 : before.cavities - std::min(before.cavities, squares);
+  // Euler and Poincare; fragments beside have neither loops nor voids.
+  after.holes =
+      count_components(solid.complex, bored.graph) + after.cavities + count[1] - count[0] - count[2];
+  return after;
 }
 
 }  // namespace affskel::core

@@ -9,6 +9,7 @@
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/shortest_ways.h"
 #include "core/lattice/lattice.h"
+#include "core/solid/betti_numbers.h"
 
 namespace affskel::core {
 
@@ -25,7 +26,8 @@ struct BoredCells {
   /// By the order in which they are opened; no edges where there are more than kMostBored loops: the lattice resolves no
   /// solid at all.
   std::vector<DualComplex::Cell> cells;
-  CellSet left;  ///< without them, collapsed onto the anchors
+  CellSet left;   ///< without them, collapsed onto the anchors
+  CellSet graph;  ///< that, collapsed as far as it can be
 };
 
 /// Cells that open what noise has bored.  Noise that makes a surface cross itself bores tunnels and voids through limbs, a
@@ -39,6 +41,13 @@ struct BoredCells {
 /// @throws CoreError kCancelled when the context asks to stop.
 BoredCells bored_cells(const NoisySolid& solid, const CellSet& left, std::span<const Anchor> anchors = {},
                        ExecutionContext* context = nullptr);
+
+/// Fills what noise has bored: the cells that bored_cells() names are taken out, and what hangs loose then goes as
+/// far as the anchors.  Limbs with such loops have tips, see limb_tips().
+/// @param before of the complex.
+/// @return of the complex filled: of what is left, with as many components as before.
+BettiNumbers fill_bored(const NoisySolid& solid, const BettiNumbers& before, std::span<const Anchor> anchors,
+                        CellSet& left, ExecutionContext* context = nullptr);
 
 inline constexpr double kBored = 2;
 inline constexpr std::size_t kMostBored = 512;

@@ -231,23 +231,4 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
   return filled;
 }
 
-BettiNumbers fill_bored(const NoisySolid& solid, const BettiNumbers& before, std::span<const Anchor> anchors,
-                        CellSet& left, ExecutionContext* context) {
-  const DualComplex& complex = solid.complex;
-  BoredCells bored = bored_cells(solid, left, anchors, context);
-  if (bored.cells.empty()) return before;
-  left = std::move(bored.left);
-  // Counted: a square that has one void on both sides bounds none, and leaves a loop when it goes.
-  const CellSet graph = collapsed(complex, left, {}, context);
-  std::array<std::uint64_t, 3> count{};
-  graph.for_each([&](Cell cell) { ++count[static_cast<std::size_t>(DualComplex::dimension(cell))]; });
-  BettiNumbers after = before;
-  const auto squares = static_cast<std::uint64_t>(std::count_if(
-      bored.cells.begin(), bored.cells.end(), [](Cell cell) { return DualComplex::dimension(cell) == 2; }));
-  after.cavities = count[2] == 0 ? 0 : before.cavities - std::min(before.cavities, squares);
-  // Euler and Poincare; fragments beside have neither loops nor voids.
-  after.holes = count_components(complex, graph) + after.cavities + count[1] - count[0] - count[2];
-  return after;
-}
-
 }  // namespace affskel::core

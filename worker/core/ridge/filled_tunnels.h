@@ -7,8 +7,8 @@
 #include "core/base/execution_context.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
+#include "core/collapse/shortest_ways.h"
 #include "core/lattice/lattice.h"
-#include "core/ridge/bored_cells.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/solid/solid.h"
 
@@ -42,13 +42,6 @@ struct FilledTunnels {
 FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
                            std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
                            const FillOptions& options = {});
-
-/// Fills what noise has bored, see bored_cells(): the cells that it names are taken out, and what hangs loose then goes as
-/// far as the anchors.  Limbs with such loops have tips, see limb_tips().
-/// @param before of the complex.
-/// @return of the complex filled: of what is left, with as many components as before.
-BettiNumbers fill_bored(const NoisySolid& solid, const BettiNumbers& before, std::span<const Anchor> anchors,
-                        CellSet& left, ExecutionContext* context = nullptr);
 
 inline constexpr std::size_t kMostTunnels = 64;  ///< with more the lattice resolves no solid at all
 

@@ -10,7 +10,6 @@
 #include "core/base/unit.h"
 #include "core/collapse/shortest_ways.h"
 #include "core/lattice/lattice_edges.h"
-#include "core/lattice/lattice_points.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {
@@ -25,11 +24,7 @@ double depth(double erosion, const Vec3& g) {
 class Relaxation {
  public:
   Relaxation(const Lattice& lattice, std::vector<float> depth)
-      : lattice_(lattice), band_(lattice, 0), rank_(band_.places(), kOutside), depth_(std::move(depth)) {
-    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-      rank_[static_cast<std::size_t>(band_.at(i, j, k))] = rank;
-    });
-  }
+      : lattice_(lattice), band_(lattice, 0), rank_(ranks_in(band_, lattice)), depth_(std::move(depth)) {}
 
   // Forth and back until nothing changes.  A pass carries depths along all ways that never turn back against
   // the lattice's order; in a solid that bends there may be more of them.
@@ -50,8 +45,6 @@ class Relaxation {
   }
 
  private:
-  static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
-
   struct RowBeside {
     const RowBand::Row* row = nullptr;
     std::int32_t steps = 0;
@@ -77,7 +70,7 @@ class Relaxation {
         const std::int32_t at = k + sign * c;
         if (at < row->begin || at >= row->end) continue;
         const std::uint32_t rank = rank_[static_cast<std::size_t>(row->offset + at)];
-        if (rank == kOutside) continue;
+        if (rank == kNone) continue;
         least = std::min(least, depth_[rank] + kStepLength[static_cast<std::size_t>(steps + std::abs(c))]);
       }
     }

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/base/require.h"
 #include "core/ridge/surface_squares.h"
 
@@ -228,7 +229,7 @@ class Choice {
   void join_components() {
     for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube) {
       for (std::size_t axis = 0; axis < 3; ++axis)
-        if (const std::uint32_t to = complex_.neighbour(cube, axis, 2); to != DualComplex::kNone)
+        if (const std::uint32_t to = complex_.neighbour(cube, axis, 2); to != kNone)
           components_.unite(cube, to);
     }
   }
@@ -282,7 +283,7 @@ class Choice {
     if (here <= known.depth) return;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::uint32_t to = complex_.neighbour(cube, axis, 2);
-      const double depth = to == DualComplex::kNone ? 0 : std::min(here, depth_at(to));
+      const double depth = to == kNone ? 0 : std::min(here, depth_at(to));
       if (depth > known.depth) known = {depth, complex_.square(cube, axis)};
     }
   }

@@ -10,7 +10,7 @@ struct RidgeBounds {
   double high = 6.5;  ///< a piece has this strength somewhere, >= low
 };
 
-/// What the skeleton of `ridge` is made with, found by experiments; nobody but tests takes other values.
+/// What the skeleton of `ridge` is made with, found by experiments; tests take other values.
 /// Lengths called radii are distances to the surface.  Reasons: README.md in worker/core.
 struct RidgeConstants {
   // Smoothed derivatives: the Gaussian's standard deviation as a share of the local depth, and its bounds,

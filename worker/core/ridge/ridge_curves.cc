@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 
+#include "core/base/none.h"
 #include "core/base/unit.h"
 #include "core/lattice/lattice_edges.h"
 #include "core/lattice/lattice_points.h"
@@ -20,8 +21,6 @@
 
 namespace affskel::core {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 // The lattice stands symmetrically about a solid.  There the axis of a symmetric one would meet the diagonals
 // of cells, where the signs of several determinants are left to rounding: curves are looked for this much
@@ -103,7 +102,7 @@ class CurveFinder {
       const std::uint32_t point = ranks_.at(place_[0] + static_cast<std::int32_t>(c & 1),
                                             place_[1] + static_cast<std::int32_t>(c >> 1 & 1),
                                             place_[2] + static_cast<std::int32_t>(c >> 2));
-      cell_.point[c] = point != LayerIndex::kOutside && near_curve(point) ? point : kNone;
+      cell_.point[c] = point != kNone && near_curve(point) ? point : kNone;
       if (cell_.point[c] == kNone) {
         if (c == 7) return false;  // a corner of all tetrahedra
         continue;

@@ -16,6 +16,7 @@
 #include "core/lattice/solid_parts.h"
 #include "core/mesh/box.h"
 #include "core/mesh/laplacian.h"
+#include "core/ridge/bored_cells.h"
 #include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_anchors.h"
@@ -28,12 +29,6 @@
 
 namespace affskel::core {
 namespace {
-
-// What is found of ridges, from a weak strength on.
-struct Found {
-  std::vector<RidgeCrossing> crossings;
-  std::vector<RidgeCurve> curves;
-};
 
 constexpr int kSmoothings = 2;  // enough to hide noise as large as triangles
 
@@ -60,18 +55,17 @@ struct WithoutNoise {
   const double noise;
 };
 
-Found find_ridges(const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
-                  const DistanceToMesh& nearest, const DistanceToMesh* smoothed,
-                  const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  const RidgeValues values(lattice, field, basis.derivatives, basis.radius, nearest, smoothed,
-                           constants.weak_share * options.bounds.low, constants);
-  throw_if_stopped(options.context);
-  Found found;
-  found.crossings = ridge_crossings(lattice, values);
-  throw_if_stopped(options.context);
-  found.curves = ridge_curves(lattice, values, options.context);
-  return found;
-}
+// The surface of a solid, lattice coordinates.
+struct Walls {
+  Walls(const Solid& solid, const Lattice& lattice)
+      : mesh(surface_in_lattice(solid, lattice)), distance(mesh) {
+    if (solid.self_intersecting) clean.emplace(mesh);
+  }
+
+  const Mesh mesh;
+  const DistanceToMesh distance;
+  std::optional<WithoutNoise> clean;  // of one that crosses itself
+};
 
 // A vertex has the mean of its cell's crossings, normals turned to agree with the first.
 SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCells& cells,
@@ -159,6 +153,117 @@ void fill(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
   }
 }
 
+class SheetMaker {
+ public:
+  SheetMaker(const Solid& solid, const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
+             const RidgeSheetOptions& options, const RidgeConstants& constants)
+      : solid_(solid),
+        lattice_(lattice),
+        field_(field),
+        basis_(basis),
+        options_(options),
+        constants_(constants),
+        parts_(solid, lattice),
+        walls_(solid, lattice) {}
+
+  RidgeSheet run() {
+    find_ridges();
+    Collapsed left = collapsed_onto_ridges();
+    RidgeSheet sheet;
+    sheet.lattice = basis_.topology;
+    fill(solid_, lattice_, basis_, chosen_.anchors, constants_, options_.context, left.cells, sheet);
+    sheet.fragments = chosen_.fragments;
+    sheet.limbs = chosen_.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
+    sheet.opened = left.opened;
+    static_cast<SheetMesh&>(sheet) = placed(left.cells);
+    sheet.unreached = unreached_ends(solid_, lattice_, chosen_.left_out, mesh_places(solid_, lattice_, sheet),
+                                     options_.context);
+    return sheet;
+  }
+
+ private:
+  // From a weak strength on.
+  void find_ridges() {
+    std::vector<RidgeCrossing> crossings;
+    {
+      const RidgeValues values(lattice_, field_, basis_.derivatives, basis_.radius, walls_.distance,
+                               walls_.clean ? &walls_.clean->distance : nullptr,
+                               constants_.weak_share * options_.bounds.low, constants_);
+      throw_if_stopped(options_.context);
+      crossings = ridge_crossings(lattice_, values);
+      throw_if_stopped(options_.context);
+      curves_ = ridge_curves(lattice_, values, options_.context);
+    }
+    throw_if_stopped(options_.context);
+    for (const RidgeCrossing& crossing : crossings) {
+      edges_.push_back(crossing.edge);
+      strengths_.push_back(crossing.at.strength);
+    }
+    cells_ = edge_cells(lattice_, basis_.complex, parts_, edges_);
+    surface_ = contour(lattice_, parts_, cells_, crossings, options_.context).vertices;
+  }
+
+  // What is left of the solid, but for fragments.
+  Collapsed collapsed_onto_ridges() {
+    SpikyLimbs limbs{basis_.complex, basis_.radius, basis_.thickness, basis_.limbs,
+                     walls_.clean ? walls_.clean->noise : 0};
+    const std::vector<char> doubtful = possible_spikes(solid_, walls_.mesh, lattice_, limbs, constants_);
+    const RidgeEvidence evidence{.complex = basis_.complex,
+                                 .parts = parts_,
+                                 .field = field_,
+                                 .edges = edges_,
+                                 .strength = strengths_,
+                                 .cells = cells_,
+                                 .vertices = surface_,
+                                 .curves = curves_,
+                                 .limbs = basis_.limbs,
+                                 .radius = basis_.radius,
+                                 .doubtful = doubtful};
+    chosen_ = ridge_anchors(evidence, options_.bounds, constants_, options_.context);
+    const auto collapsed = [&] {
+      return collapse(basis_.complex, chosen_.anchors,
+                      {.cost = costs_of_ways(field_, basis_.radius), .context = options_.context});
+    };
+    Collapsed left = collapsed();
+    limbs.tips = chosen_.doubtful;
+    if (take_limbs(limbs_without_spikes(limbs, left.cells, constants_), chosen_)) left = collapsed();
+    if (count_components(basis_.complex, left.cells) != basis_.topology.components)
+      throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
+    drop(basis_.complex, chosen_.left_out, left.cells);
+    return left;
+  }
+
+  SheetMesh placed(const CellSet& left) const {
+    const SkeletonParts from{.lattice = lattice_,
+                             .parts = parts_,
+                             .field = field_,
+                             .cells = cells_,
+                             .surface = surface_,
+                             .anchors = chosen_,
+                             .derivatives = basis_.derivatives,
+                             .radius = basis_.radius,
+                             .nearest = walls_.distance,
+                             .low = options_.bounds.low,
+                             .min_radius_share = constants_.min_radius_share};
+    return skeleton_mesh(solid_, basis_.complex, left, from, options_.context);
+  }
+
+  const Solid& solid_;
+  const Lattice& lattice_;
+  const FrameField& field_;
+  const RidgeBasis& basis_;
+  const RidgeSheetOptions& options_;
+  const RidgeConstants& constants_;
+  const SolidParts parts_;
+  const Walls walls_;
+  std::vector<LatticeEdge> edges_;    // that the surface crosses
+  std::vector<double> strengths_;     // there
+  EdgeCells cells_;                   // about them
+  std::vector<SheetVertex> surface_;  // per cell
+  std::vector<RidgeCurve> curves_;
+  RidgeAnchors chosen_;
+};
+
 }  // namespace
 
 RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
@@ -189,74 +294,10 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
 }
 
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       const RidgeSheetOptions& options, const RidgeConstants& constants) {
-  std::optional<RidgeBasis> made;
-  if (options.basis == nullptr) made = ridge_basis(solid, lattice, field, 1, options.context, constants);
-  const RidgeBasis& basis = made ? *made : *options.basis;
-  if (basis.derivatives.size() != lattice.points)
-    throw CoreError(CoreError::Code::kBadInput, "the basis is not that of this lattice");
-  const SolidParts parts(solid, lattice);
-  const Mesh walls = surface_in_lattice(solid, lattice);
-  const DistanceToMesh nearest(walls);
-  std::optional<WithoutNoise> clean;
-  if (solid.self_intersecting) clean.emplace(walls);
-  Found found =
-      find_ridges(lattice, field, basis, nearest, clean ? &clean->distance : nullptr, options, constants);
-  throw_if_stopped(options.context);
-  std::vector<LatticeEdge> edges;
-  std::vector<double> strengths;
-  for (const RidgeCrossing& crossing : found.crossings) {
-    edges.push_back(crossing.edge);
-    strengths.push_back(crossing.at.strength);
-  }
-  const EdgeCells cells = edge_cells(lattice, basis.complex, parts, edges);
-  const SheetMesh surface = contour(lattice, parts, cells, found.crossings, options.context);
-  std::vector<RidgeCrossing>().swap(found.crossings);  // the surface has what they say
-  SpikyLimbs limbs{basis.complex, basis.radius, basis.thickness, basis.limbs, clean ? clean->noise : 0};
-  const std::vector<char> doubtful = possible_spikes(solid, walls, lattice, limbs, constants);
-  const RidgeEvidence evidence{.complex = basis.complex,
-                               .parts = parts,
-                               .field = field,
-                               .edges = edges,
-                               .strength = strengths,
-                               .cells = cells,
-                               .vertices = surface.vertices,
-                               .curves = found.curves,
-                               .limbs = basis.limbs,
-                               .radius = basis.radius,
-                               .doubtful = doubtful};
-  RidgeAnchors chosen = ridge_anchors(evidence, options.bounds, constants, options.context);
-  const auto collapsed_onto_them = [&] {
-    return collapse(basis.complex, chosen.anchors,
-                    {.cost = costs_of_ways(field, basis.radius), .context = options.context});
-  };
-  Collapsed left = collapsed_onto_them();
-  limbs.tips = chosen.doubtful;
-  if (take_limbs(limbs_without_spikes(limbs, left.cells, constants), chosen)) left = collapsed_onto_them();
-  if (count_components(basis.complex, left.cells) != basis.topology.components)
-    throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
-  drop(basis.complex, chosen.left_out, left.cells);
-  RidgeSheet sheet;
-  sheet.lattice = basis.topology;
-  fill(solid, lattice, basis, chosen.anchors, constants, options.context, left.cells, sheet);
-  sheet.fragments = chosen.fragments;
-  sheet.limbs = chosen.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
-  sheet.opened = left.opened;
-  const SkeletonParts from{.lattice = lattice,
-                           .parts = parts,
-                           .field = field,
-                           .cells = cells,
-                           .surface = surface.vertices,
-                           .anchors = chosen,
-                           .derivatives = basis.derivatives,
-                           .radius = basis.radius,
-                           .nearest = nearest,
-                           .low = options.bounds.low,
-                           .min_radius_share = constants.min_radius_share};
-  static_cast<SheetMesh&>(sheet) = skeleton_mesh(solid, basis.complex, left.cells, from, options.context);
-  sheet.unreached =
-      unreached_ends(solid, lattice, chosen.left_out, mesh_places(solid, lattice, sheet), options.context);
-  return sheet;
+                       const RidgeBasis& basis, const RidgeSheetOptions& options,
+                       const RidgeConstants& constants) {
+  if (basis.derivatives.size() != lattice.points) refuse("the basis is not that of this lattice");
+  return SheetMaker(solid, lattice, field, basis, options, constants).run();
 }
 
 }  // namespace affskel::core

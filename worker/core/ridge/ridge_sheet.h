@@ -49,7 +49,6 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
 
 struct RidgeSheetOptions {
   RidgeBounds bounds;
-  const RidgeBasis* basis = nullptr;    ///< of this field, for several sheets of it; null: it is made
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and in long ones
 };
 
@@ -77,9 +76,11 @@ struct RidgeSheet : SheetMesh {
 /// lattice and field alone.
 /// @param lattice of this solid.
 /// @param field of this lattice.
+/// @param basis of this field, for all sheets of it.
 /// @throws CoreError kBadInput when a bound is not finite or out of range, or the basis is not of as many
 ///   points; kLimit for 2^30 crossings and more; kCancelled when the context asks to stop.
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       const RidgeSheetOptions& options = {}, const RidgeConstants& constants = {});
+                       const RidgeBasis& basis, const RidgeSheetOptions& options = {},
+                       const RidgeConstants& constants = {});
 
 }  // namespace affskel::core

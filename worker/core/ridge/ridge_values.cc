@@ -35,10 +35,9 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
   if (largest == 0 || strength_of(-std::sqrt(squares), static_cast<double>(point.value),
                                   dot(gradient, gradient)) < 0.25 * min_strength)
     return {};
-  const auto scaled = [&](std::size_t n) { return static_cast<double>(h[n]) / largest; };
-  const SymmetricEigen eigen =
-      symmetric_eigen({Vec3{scaled(0), scaled(1), scaled(2)}, Vec3{scaled(1), scaled(3), scaled(4)},
-                       Vec3{scaled(2), scaled(4), scaled(5)}});
+  Matrix3 scaled = hessian_of(point);
+  for (Vec3& column : scaled) column = {column.x / largest, column.y / largest, column.z / largest};
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
   if (eigen.values[2] >= 0) return {};
   return {floats_of(eigen.vectors[2]), floats_of(eigen.vectors[0]),
           static_cast<float>(eigen.values[2] * largest),

@@ -61,7 +61,7 @@ class RidgeValues {
   bool counts(const SheetVertex& vertex) const { return vertex.strength >= min_strength_ && is_deep(vertex); }
 
   /// The vertex at `position` that has the weighted mean of the points' values.
-  /// @param points the first one becomes the vertex's sample point.
+  /// @param points the heaviest one, of equal ones the first, becomes the vertex's sample point.
   /// @param weights one per point, >= 0, with the sum 1.
   /// @param across e_1 there, unit, of either sign.
   SheetVertex at(Of of, const Vec3& position, std::span<const std::uint32_t> points,

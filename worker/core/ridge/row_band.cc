@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/lattice/lattice_points.h"
+
 namespace affskel::core {
 
 RowBand::RowBand(const Lattice& lattice, std::int32_t margin)
@@ -61,6 +63,14 @@ void RowBand::number_places() {
     next += row.end - row.begin;
   }
   places_ = static_cast<std::size_t>(next);
+}
+
+std::vector<std::uint32_t> ranks_in(const RowBand& band, const Lattice& lattice) {
+  std::vector<std::uint32_t> ranks(band.places(), kNone);
+  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    ranks[static_cast<std::size_t>(band.at(i, j, k))] = rank;
+  });
+  return ranks;
 }
 
 }  // namespace affskel::core

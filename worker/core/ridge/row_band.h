@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/lattice/lattice.h"
 
@@ -77,5 +78,8 @@ class RowBand {
   std::vector<Row> rows_;
   std::size_t places_ = 0;
 };
+
+/// Per place of a band: the rank of the sample point there, or kNone.
+std::vector<std::uint32_t> ranks_in(const RowBand& band, const Lattice& lattice);
 
 }  // namespace affskel::core

@@ -8,6 +8,7 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/matrix3.h"
+#include "core/base/none.h"
 #include "core/base/unit.h"
 #include "core/contour/dual_contour.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -232,7 +233,7 @@ class Placing {
 
   // Along edges, which are about a spacing long.
   void find_ways_to_bound() {
-    std::vector<std::uint32_t> bound(bound_.size(), kNoNode);
+    std::vector<std::uint32_t> bound(bound_.size(), kNone);
     for (std::uint32_t v = 0; v < bound.size(); ++v)
       if (bound_[v]) bound[v] = v;
     CheapestWays ways(std::move(bound));
@@ -315,30 +316,25 @@ class Placing {
     return (std::min(1.0, way_to_bound_[v] / radius) * step * from_.lattice.spacing) * uphill;
   }
 
-  static Vec3 bent(const PointDerivatives& at, const Vec3& v) {
-    const auto h = [&](std::size_t n) { return static_cast<double>(at.hessian[n]); };
-    return {h(0) * v.x + h(1) * v.y + h(2) * v.z, h(1) * v.x + h(3) * v.y + h(4) * v.z,
-            h(2) * v.x + h(4) * v.y + h(5) * v.z};
-  }
+  static Vec3 bent(const PointDerivatives& at, const Vec3& v) { return transposed_times(hessian_of(at), v); }
 
   // Makes the sample point nearest to a vertex its own, as far as the complex leads there.
   // @return the way from there to the vertex, spacings.
   Vec3 walk(std::uint32_t v) {
     SheetVertex& vertex = mesh_.vertices[v];
-    std::array<double, 3>& point = point_place_[v];
-    const Vec3 at = (1 / from_.lattice.spacing) * vertex.position;
-    std::array<double, 3> off{at.x - point[0], at.y - point[1], at.z - point[2]};
+    Vec3& point = point_place_[v];
+    Vec3 off = (1 / from_.lattice.spacing) * vertex.position - point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       while (std::abs(off[axis]) > 0.5) {
         const double step = off[axis] > 0 ? 1 : -1;
         const std::uint32_t next = complex_.neighbour(vertex.point, axis, step > 0 ? 2 : 0);
-        if (next == DualComplex::kNone) break;
+        if (next == kNone) break;
         vertex.point = next;
         point[axis] += step;
         off[axis] -= step;
       }
     }
-    return {off[0], off[1], off[2]};
+    return off;
   }
 
   // What vertices that were moved freely have at their places, by the sample points next to them.
@@ -378,10 +374,10 @@ class Placing {
   Matrix3 to_mesh_;  // F^-T
   SkeletonCells cells_;
   Adjacency neighbours_, rim_neighbours_;
-  std::vector<char> bound_;                         // per vertex: its place and values are known
-  std::vector<double> way_to_bound_;                // per vertex, to the nearest of these, spacings
-  std::vector<Clear> clear_;                        // per vertex, of those near the surface
-  std::vector<std::array<double, 3>> point_place_;  // per vertex that is not bound: of its sample point
+  std::vector<char> bound_;           // per vertex: its place and values are known
+  std::vector<double> way_to_bound_;  // per vertex, to the nearest of these, spacings
+  std::vector<Clear> clear_;          // per vertex, of those near the surface
+  std::vector<Vec3> point_place_;     // per vertex that is not bound: of its sample point
   SheetMesh mesh_;
 };
 

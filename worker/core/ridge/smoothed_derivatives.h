@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/matrix3.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_constants.h"
@@ -20,6 +22,11 @@ struct PointDerivatives {
   std::array<float, 3> gradient{};  ///< per spacing
   std::array<float, 6> hessian{};   ///< xx, xy, xz, yy, yz, zz, per spacing squared
 };
+
+inline Matrix3 hessian_of(const PointDerivatives& point) {
+  const auto h = [&](std::size_t n) { return static_cast<double>(point.hessian[n]); };
+  return {Vec3{h(0), h(1), h(2)}, Vec3{h(1), h(3), h(4)}, Vec3{h(2), h(4), h(5)}};
+}
 
 /// First and second derivatives of P at every sample point by Gaussian derivatives (Lindeberg 1994; with the
 /// moments of the sampled kernels made exact, so that quadratic polynomials have their own derivatives).

@@ -6,6 +6,7 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
+#include "core/base/none.h"
 #include "core/base/unit.h"
 
 namespace affskel::core {
@@ -93,7 +94,7 @@ class Selection {
       }
     });
     const auto ways_from = [&](const auto& is_source) {
-      std::vector<std::uint32_t> sources(count_, kNoNode);
+      std::vector<std::uint32_t> sources(count_, kNone);
       for (std::uint32_t square = 0; square < count_; ++square)
         if (is_source(square)) sources[square] = 0;
       CheapestWays ways(std::move(sources));

@@ -6,7 +6,6 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "core/lattice/lattice_points.h"
 #include "core/ridge/row_band.h"
 #include "core/spatial/point_index.h"
 
@@ -18,11 +17,11 @@ constexpr double kReached = 2;  // spacings: sample points so near tell of a cor
 class Ends {
  public:
   Ends(const Solid& solid, const Lattice& lattice, std::span<const char> left_out)
-      : solid_(solid), indices_of_(lattice), band_(lattice, 0), counts_(band_.places(), 0) {
-    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-      counts_[static_cast<std::size_t>(band_.at(i, j, k))] = left_out[rank] == 0;
-    });
-  }
+      : solid_(solid),
+        indices_of_(lattice),
+        band_(lattice, 0),
+        rank_(ranks_in(band_, lattice)),
+        left_out_(left_out) {}
 
   std::vector<UnreachedEnd> run(std::span<const Vec3> skeleton, ExecutionContext* context) {
     StopCheck stop(context);
@@ -60,14 +59,15 @@ class Ends {
   // Whether a sample point that counts lies within kReached.
   bool is_reached(const Vec3& at) const {
     return band_.any_near(at, kReached, [&](std::size_t place, double square) {
-      return counts_[place] != 0 && square <= kReached * kReached;
+      return square <= kReached * kReached && rank_[place] != kNone && left_out_[rank_[place]] == 0;
     });
   }
 
   const Solid& solid_;
   LatticeIndices indices_of_;
   RowBand band_;
-  std::vector<char> counts_;  // per place of the band: a sample point that has a skeleton
+  std::vector<std::uint32_t> rank_;  // per place of the band
+  std::span<const char> left_out_;   // per sample point: it has no skeleton
 };
 
 }  // namespace

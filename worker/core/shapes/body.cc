@@ -20,14 +20,11 @@ constexpr std::uint32_t kMinBodyTriangles = 200, kMaxBodyTriangles = 200000;
 void check(const MakeBodyOptions& options) {
   if (options.triangles < kMinBodyTriangles || options.triangles > kMaxBodyTriangles ||
       options.triangles % 2 != 0) {
-    throw CoreError(CoreError::Code::kBadInput, "body: the number of triangles must be even and within " +
-                                                    std::to_string(kMinBodyTriangles) + " .. " +
-                                                    std::to_string(kMaxBodyTriangles) + ", not " +
-                                                    std::to_string(options.triangles));
+    refuse("body: the number of triangles must be even and within " + std::to_string(kMinBodyTriangles) +
+           " .. " + std::to_string(kMaxBodyTriangles) + ", not " + std::to_string(options.triangles));
   }
   if (!(std::isfinite(options.height) && options.height > 0)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "body: the height must be a finite number > 0, not " + base::to_text(options.height));
+    refuse("body: the height must be a finite number > 0, not " + base::to_text(options.height));
   }
 }
 

@@ -17,10 +17,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 26;
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw CoreError(CoreError::Code::kBadInput, message);
-}
-
 void require_length(const char* shape, const char* name, double value) {
   if (!(std::isfinite(value) && value > 0)) {
     refuse(std::string(shape) + ": " + name + " must be a finite number > 0, not " + base::to_text(value));

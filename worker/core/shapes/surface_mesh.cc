@@ -16,8 +16,8 @@ namespace {
 using Vertex = SurfaceMesh::Vertex_index;
 using Halfedge = SurfaceMesh::Halfedge_index;
 
-[[noreturn]] void refuse() {
-  throw CoreError(CoreError::Code::kBadInput, "the triangles are no manifold surface");
+[[noreturn]] void no_manifold() {
+  refuse("the triangles are no manifold surface");
 }
 
 std::uint64_t key_of(std::uint32_t from, std::uint32_t to) {
@@ -65,11 +65,11 @@ SurfaceMesh surface_mesh_of(const Mesh& mesh) {
     std::array<Halfedge, 3> round;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      if (from == to) refuse();
+      if (from == to) no_manifold();
       const auto other = sides.find(key_of(to, from));
       round[k] =
           other == sides.end() ? surface.add_edge(Vertex(from), Vertex(to)) : surface.opposite(other->second);
-      if (!sides.emplace(key_of(from, to), round[k]).second) refuse();
+      if (!sides.emplace(key_of(from, to), round[k]).second) no_manifold();
       surface.set_face(round[k], face);
       surface.set_halfedge(Vertex(to), round[k]);
       ++leading[to];
@@ -79,7 +79,7 @@ SurfaceMesh surface_mesh_of(const Mesh& mesh) {
   }
   link_borders(surface);
   for (const Vertex v : surface.vertices())
-    if (!is_one_fan(surface, v, leading[v])) refuse();
+    if (!is_one_fan(surface, v, leading[v])) no_manifold();
   return surface;
 }
 

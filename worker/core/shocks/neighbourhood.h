@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/erosion/directions.h"
 #include "core/erosion/field.h"
 #include "core/lattice/lattice.h"
@@ -70,7 +71,7 @@ class Neighbourhood {
     for (std::size_t e = 0; e < to.size(); ++e) {
       const std::uint32_t p = ranks_.at(place_[0] + static_cast<std::int64_t>(e / 3) - 1,
                                         place_[1] + static_cast<std::int64_t>(e % 3) - 1, place_[2] + step);
-      to[e].inside = p != LayerIndex::kOutside;
+      to[e].inside = p != kNone;
       if (to[e].inside) to[e].normal = normal(p);
     }
   }
@@ -103,7 +104,7 @@ std::vector<double> at_every_point(const Lattice& lattice, const DirectionSet& d
                                    const OptimalDirections& optimal, ExecutionContext* context, Value value) {
   std::vector<double> result(lattice.points, 0);
   LayerIndex ranks(lattice);
-  std::uint32_t reached = LayerIndex::kOutside;
+  std::uint32_t reached = kNone;
   Neighbourhood normals(directions, optimal, ranks);
   for (const LatticeRun& run : lattice.axis[2].runs) {
     for (; reached != run.start[0]; ranks.move_to(++reached)) throw_if_stopped(context);

@@ -9,8 +9,7 @@ namespace affskel::core {
 
 std::vector<SkeletonPoint> skeleton_points(const std::vector<double>& divergence, double threshold) {
   if (!(threshold > 0) || !std::isfinite(threshold)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "the threshold must be a finite number > 0, not " + base::to_text(threshold));
+    refuse("the threshold must be a finite number > 0, not " + base::to_text(threshold));
   }
   std::vector<SkeletonPoint> kept;
   for (std::size_t p = 0; p < divergence.size(); ++p) {

@@ -23,7 +23,6 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::uint32_t kNone = ShellNesting::kNone;
 constexpr int kUp = 2;
 
 using Extremes = std::array<std::uint32_t, 6>;  // vertices with the least and greatest x, y, z
@@ -311,7 +310,7 @@ class Nester {
 
 ShellNesting nest_shells(const Mesh& mesh, const std::vector<std::uint32_t>& triangle_shell,
                          std::uint32_t shells, const ShellNestingOptions& options) {
-  if (shells == 1) return {{0}, {ShellNesting::kNone}};
+  if (shells == 1) return {{0}, {kNone}};
   return Nester(mesh, triangle_shell, shells, options).run();
 }
 

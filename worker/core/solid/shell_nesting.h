@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/base/none.h"
 #include "core/mesh/mesh.h"
 
 namespace affskel::core {
@@ -15,7 +16,6 @@ struct ShellNestingOptions {
 
 /// How the closed surfaces of a mesh lie in one another.
 struct ShellNesting {
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::vector<std::uint32_t> depth;   ///< number of surfaces round this one
   std::vector<std::uint32_t> parent;  ///< the innermost surface round it, or kNone
   std::uint64_t tests = 0;            ///< triangles that rays were compared with: what it cost

@@ -21,10 +21,6 @@
 namespace affskel::core {
 namespace {
 
-[[noreturn]] void refuse(const std::string& message, std::uint64_t line = 0) {
-  throw CoreError(CoreError::Code::kBadInput, message, line);
-}
-
 class SolidBuilder {
  public:
   // @param source the triangles of the mesh to use, ascending.
@@ -319,18 +315,13 @@ class SolidBuilder {
       refuse("the solids lie too far apart to be computed together: " + which + ", which begins with " +
              place(size.first_triangle) + ", is " +
              base::rounded(size.box.longest_side() * solid_.scale(), 3) + " long, the whole mesh " +
-             base::rounded(extent(), 3) + "; take them one by one");
+             base::rounded(Box{solid_.bbox_min, solid_.bbox_max}.longest_side(), 3) +
+             "; take them one by one");
     }
     if (std::isnan(volume))
       refuse("the mesh is too large or too thin: " + which + " has a volume out of range");
     refuse("the mesh bounds no volume: " + which + " has volume " + base::to_text(volume) +
            (volume > 0 ? ", too little beside the mesh's size to tell from rounding" : ""));
-  }
-
-  // The longest side of the box.
-  double extent() const {
-    const Vec3 sides = solid_.bbox_max - solid_.bbox_min;
-    return std::max({sides.x, sides.y, sides.z});
   }
 
   void look_for_self_intersections() {

@@ -104,7 +104,7 @@ class Frame {
     // vertices' covariance is as covariant, and never negative.
     if (!(eigen.values[2] > 0)) eigen = symmetric_eigen(vertex_covariance());
     if (!(eigen.values[2] > 0)) {
-      throw CoreError(CoreError::Code::kBadInput, "the solid is too flat for an affine frame");
+      refuse("the solid is too flat for an affine frame");
     }
     Matrix3 root{}, whitening{};  // C^(1/2) and C^(-1/2)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -179,8 +179,7 @@ FrameKind parse_frame(std::string_view name) {
   if (name == "pca") return FrameKind::kPca;
   if (name == "obb") return FrameKind::kObb;
   if (name == "affine") return FrameKind::kAffine;
-  throw CoreError(CoreError::Code::kBadInput,
-                  "frame '" + std::string(name.substr(0, 40)) + "': expected axis, pca, obb or affine");
+  refuse("frame '" + std::string(name.substr(0, 40)) + "': expected axis, pca, obb or affine");
 }
 
 Matrix3 solid_frame(const Solid& solid, FrameKind kind, ExecutionContext* context) {

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/none.h"
+
 namespace affskel::core {
 namespace {
 
@@ -26,7 +28,6 @@ bool counts_in(const Box& box, double volume) {
 
 std::vector<SolidSize> solid_sizes(const Solid& solid) {
   const std::vector<Vec3>& points = solid.mesh.points;
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::vector<std::uint32_t> corner(solid.shells.size(), kNone);
   std::vector<double> shell_volume(solid.shells.size(), 0);
   std::vector<SolidSize> sizes(solid.solid_volume.size(), {{}, 0, 0, kNone});
@@ -34,8 +35,7 @@ std::vector<SolidSize> solid_sizes(const Solid& solid) {
     const Triangle& c = solid.mesh.triangles[t];
     const std::uint32_t shell = solid.triangle_shell[t];
     if (corner[shell] == kNone) corner[shell] = c[0];
-    const Vec3& o = points[corner[shell]];
-    shell_volume[shell] += dot(points[c[0]] - o, cross(points[c[1]] - o, points[c[2]] - o)) / 6;
+    shell_volume[shell] += six_volumes(points[corner[shell]], points[c[0]], points[c[1]], points[c[2]]) / 6;
     SolidSize& size = sizes[solid.shells[shell].solid];
     size.box.include(box_of(solid.mesh, c));
     size.first_triangle = std::min(size.first_triangle, t);

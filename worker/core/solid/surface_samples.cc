@@ -40,7 +40,7 @@ std::vector<Vec3> curve_samples(std::span<const Vec3> points, std::span<const Se
                                 std::size_t count) {
   const double total = curve_length(points, segments);
   if (!(total > 0) || !std::isfinite(total)) {
-    throw CoreError(CoreError::Code::kBadInput, "the curves have no length to take points from");
+    refuse("the curves have no length to take points from");
   }
   const double per_length = static_cast<double>(count) / total;
   std::vector<Vec3> samples;
@@ -69,7 +69,7 @@ double surface_area(const Mesh& mesh) {
 std::vector<Vec3> surface_samples(const Mesh& mesh, std::size_t count) {
   const double total = surface_area(mesh);
   if (!(total > 0) || !std::isfinite(total)) {
-    throw CoreError(CoreError::Code::kBadInput, "the surface has no area to take points from");
+    refuse("the surface has no area to take points from");
   }
   const double per_area = static_cast<double>(count) / total;
   std::vector<Vec3> points;

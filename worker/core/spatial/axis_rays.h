@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/none.h"
 #include "core/mesh/mesh.h"
 #include "core/spatial/box_tree.h"
 
@@ -12,8 +13,6 @@ namespace affskel::core {
 /// Immutable after construction; queries from several threads are safe.
 class AxisRays {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   struct Hit {
     std::uint32_t triangle = kNone;  ///< the first that the ray crosses; kNone: it crosses none
     int winding = 0;                 ///< how often the surface winds round the ray's origin

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/mesh/mesh.h"
 #include "core/spatial/box_tree.h"
 #include "core/spatial/oriented_box_tree.h"
@@ -49,8 +50,6 @@ class CloseTriangles {
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   /// Some triangles, ascending, which a tree numbers from 0.
   struct Members {
     std::vector<std::uint32_t> index;

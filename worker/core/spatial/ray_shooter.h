@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "core/base/none.h"
 #include "core/mesh/mesh.h"
 #include "core/spatial/box_tree.h"
 
@@ -13,8 +14,6 @@ namespace affskel::core {
 /// to the mesh.
 class RayShooter {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-
   explicit RayShooter(const Mesh& mesh, unsigned threads = 1);
 
   /// The first triangle that the ray vertex - s d, s >= 0, leaves the solid through: among triangles with

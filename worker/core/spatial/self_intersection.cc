@@ -20,18 +20,17 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 
-[[noreturn]] void refuse(std::size_t triangle, std::uint32_t vertex, const std::string& cause) {
-  throw CoreError(CoreError::Code::kBadInput, "triangle " + std::to_string(triangle) + ", vertex " +
-                                                  std::to_string(vertex) + ": " + cause);
+[[noreturn]] void refuse_corner(std::size_t triangle, std::uint32_t vertex, const std::string& cause) {
+  refuse("triangle " + std::to_string(triangle) + ", vertex " + std::to_string(vertex) + ": " + cause);
 }
 
 void check(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (const std::uint32_t v : mesh.triangles[i]) {
       if (v >= mesh.points.size()) {
-        refuse(i, v, "there are only " + std::to_string(mesh.points.size()) + " vertices");
+        refuse_corner(i, v, "there are only " + std::to_string(mesh.points.size()) + " vertices");
       }
-      if (!is_finite(mesh.points[v])) refuse(i, v, "a coordinate is not finite");
+      if (!is_finite(mesh.points[v])) refuse_corner(i, v, "a coordinate is not finite");
     }
   }
 }

@@ -34,26 +34,23 @@ using Delaunay =
     CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using Point = Kernel::Point_3;
 
-[[noreturn]] void refuse(const std::string& cause) {
-  throw CoreError(CoreError::Code::kBadInput, "alpha surface: " + cause);
-}
-
 /// The squared radius that the options ask for.
 double checked_alpha(const AlphaShapeOptions& options) {
   if (!(std::isfinite(options.alpha) && options.alpha >= 0)) {
-    refuse("alpha must be a finite number >= 0, not " + base::to_text(options.alpha));
+    refuse("alpha surface: alpha must be a finite number >= 0, not " + base::to_text(options.alpha));
   }
   if (!(std::isfinite(options.spacing) && options.spacing >= 0)) {
-    refuse("the spacing must be a finite number >= 0, not " + base::to_text(options.spacing));
+    refuse("alpha surface: the spacing must be a finite number >= 0, not " + base::to_text(options.spacing));
   }
   if (options.alpha > 0) return options.alpha;
-  if (options.spacing == 0) refuse("either alpha or the spacing must be given");
+  if (options.spacing == 0) refuse("alpha surface: either alpha or the spacing must be given");
   return 3 * options.spacing * options.spacing;
 }
 
 void check_finite(std::span<const Vec3> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_finite(points[i])) refuse("point " + std::to_string(i) + " has a coordinate that is not finite");
+    if (!is_finite(points[i]))
+      refuse("alpha surface: point " + std::to_string(i) + " has a coordinate that is not finite");
   }
 }
 

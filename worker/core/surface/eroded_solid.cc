@@ -37,6 +37,7 @@
 
 #include "base/number_text.h"
 #include "core/base/error.h"
+#include "core/base/none.h"
 #include "core/lattice/lattice_cuts.h"
 #include "core/lattice/layer_index.h"
 #include "core/surface/eroded_places.h"
@@ -261,7 +262,7 @@ class Marcher {
     const Vec3 delta = field_.spacing * (vector_of(place(q)) - vector_of(place(p)));
     const Vec3& g = field_.gradient[x];
     const EdgeValue here{field_.erosion[x], dot(g, delta)};
-    if (y == LayerIndex::kOutside || has_gap(p, q)) {
+    if (y == kNone || has_gap(p, q)) {
       // Without a cut, p and q disagree about the surface by rounding, and it is near one of them.
       const double surface = cut == nullptr ? 1 : p == (p & q) ? cut->leaves : 1 - cut->enters;
       const double t = level_crossing_before_surface(here, surface, level_);
@@ -300,18 +301,15 @@ class Marcher {
 
 void check(const Lattice& lattice, const FrameField& field, const ErodedSurfaceOptions& options) {
   if (!(std::isfinite(options.level) && options.level >= 0)) {
-    throw CoreError(CoreError::Code::kBadInput, "eroded solid: the level must be a finite number >= 0, not " +
-                                                    base::to_text(options.level));
+    refuse("eroded solid: the level must be a finite number >= 0, not " + base::to_text(options.level));
   }
   if (!(options.shortest_edge >= 0 && options.shortest_edge < 1)) {
-    throw CoreError(CoreError::Code::kBadInput,
-                    "eroded solid: the shortest edge must be >= 0 and < 1 spacing, not " +
-                        base::to_text(options.shortest_edge));
+    refuse("eroded solid: the shortest edge must be >= 0 and < 1 spacing, not " +
+           base::to_text(options.shortest_edge));
   }
   if (field.erosion.size() != lattice.points || field.gradient.size() != lattice.points) {
-    throw CoreError(CoreError::Code::kBadInput, "eroded solid: the field has " +
-                                                    std::to_string(field.erosion.size()) +
-                                                    " points, the lattice " + std::to_string(lattice.points));
+    refuse("eroded solid: the field has " + std::to_string(field.erosion.size()) + " points, the lattice " +
+           std::to_string(lattice.points));
   }
 }
 

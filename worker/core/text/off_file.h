@@ -36,10 +36,10 @@ void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64
 
 /// Reads a Geomview OFF file in text form, strictly: header [ST][C][N][4]OFF, counts on the same or on the
 /// next line (the edge count may be absent), `#` comments, lines as TextRows has them; per vertex three finite
-/// numbers (x y z w under 4OFF, where x/w y/w z/w is the place) plus what the header promises, or under the header OFF three or four more on every row, which several
-/// viewers write for colours; per face its size, indices and optional colours.  Polygons are cut into
-/// triangles (see cut_polygon).  A triangle may name a vertex twice, a larger polygon not.  The file must end
-/// after the last face.
+/// numbers (x y z w under 4OFF, where x/w y/w z/w is the place) plus what the header promises, or under the
+/// header OFF three or four more on every row, which several viewers write for colours; per face its size,
+/// indices and optional colours.  Polygons are cut into triangles (see cut_polygon).  A triangle may name a
+/// vertex twice, a larger polygon not.  The file must end after the last face.
 /// @throws CoreError kBadInput with line and cause for everything else (binary, nOFF, decimal
 ///   commas, NUL bytes, line ends of two kinds, trailing rows, indices out of range or not integral, NaN, infinity);
 ///   kLimit for counts above 2^28, before anything is allocated; kCancelled when the context asks to stop.

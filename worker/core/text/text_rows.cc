@@ -80,7 +80,7 @@ std::string_view TextWords::next() {
 
 void fail_at(std::uint64_t line, const std::string& message) {
   const std::string where = line > 0 ? "line " + std::to_string(line) + ": " : std::string();
-  throw CoreError(CoreError::Code::kBadInput, where + message, line);
+  refuse(where + message, line);
 }
 
 std::string quoted_excerpt(std::string_view text) {

@@ -7,9 +7,9 @@
 
 namespace affskel::core {
 
-/// Rows of a text file: lines (LF or CRLF, CR where the bytes have no LF) without `#` comments, blank ones skipped, cut into words.  A byte
-/// order mark of UTF-8, which some editors and spreadsheets put first, is passed over.  The bytes must
-/// outlive the rows.
+/// Rows of a text file: lines (LF or CRLF, CR where the bytes have no LF) without `#` comments, blank ones skipped,
+/// cut into words.  A byte order mark of UTF-8, which some editors and spreadsheets put first, is passed over.  The
+/// bytes must outlive the rows.
 class TextRows {
  public:
   /// @param lines_before lines of the file in front of `bytes`, counted by `line` too.

@@ -28,7 +28,7 @@ struct ShortEdge {
 // Triangles below are slivers: a change may not make one, and their direction says nothing.
 constexpr double kSliver = 0.1;
 // Flat triangles below this quality are flipped.
-constexpr double kFlat = 0.3;
+constexpr double kFlatQuality = 0.3;
 // Of collapses and flips; a lattice's mesh is done after about ten.
 constexpr int kMaxRounds = 32;
 
@@ -55,7 +55,7 @@ class Tidier {
       any = collapse(e.a, e.b) || collapse(e.b, e.a) || any;
     }
     for (Index t = 0; t < mesh_.triangles.size(); ++t) {
-      if (mesh_.triangles[t][0] != mesh_.triangles[t][1] && quality(mesh_.triangles[t]) < kFlat) {
+      if (mesh_.triangles[t][0] != mesh_.triangles[t][1] && quality(mesh_.triangles[t]) < kFlatQuality) {
         any = flip(t) || any;
       }
     }

@@ -102,9 +102,8 @@ class Inside {
   Inside(const VoxelImage& image, double isovalue) : image_(image), isovalue_(isovalue) {
     const auto [low, high] = value_range(image);
     if (!(low <= isovalue && isovalue < high)) {
-      throw CoreError(CoreError::Code::kBadInput, "has no surface at the value " + base::to_text(isovalue) +
-                                                      ": its values run from " + base::to_text(low) + " to " +
-                                                      base::to_text(high));
+      refuse("has no surface at the value " + base::to_text(isovalue) + ": its values run from " +
+             base::to_text(low) + " to " + base::to_text(high));
     }
     below_ = most_of_the_border_is_above();
     outside_ = below_ ? high : low;
@@ -117,9 +116,7 @@ class Inside {
         if (is_inner(next) != inside) ++sides_;
       if (inside) reach_.include(vector_of(std::array{i, j, k}));
     });
-    if (reach_.high[0] < 0)
-      throw CoreError(CoreError::Code::kBadInput,
-                      "has no voxel on the inner side of " + base::to_text(isovalue));
+    if (reach_.high[0] < 0) refuse("has no voxel on the inner side of " + base::to_text(isovalue));
     steepest_ *= std::sqrt(3.0);  // the slope along each axis at once
     clearance_ = std::make_shared<const Clearance>(
         image.size, [&](std::size_t i, std::size_t j, std::size_t k) { return is_inner(voxel(i, j, k)); });

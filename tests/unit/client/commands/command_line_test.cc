@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "client/base/error.h"
-#include "client/base/mesh_extensions.h"
 #include "client/cli/affine_steps.h"
 #include "client/cli/completions.h"
 #include "client/commands/shared/skeleton_options.h"
@@ -241,7 +240,7 @@ TEST(Completions, OfferEveryKindOfMeshThatIsRead) {
   for (const char* name : {"g.txt", "h.gz"}) EXPECT_EQ(offered.find(name), std::string::npos) << name;
   for (const char* shell : {"zsh", "fish"})
     EXPECT_NE(script(shell).find("3mf.zst"), std::string::npos) << shell;
-  for (const std::string_view extension : kMeshExtensions) {
+  for (const std::string_view extension : core::mesh_extensions()) {
     try {
       core::parse_shape(extension, "");
     } catch (const core::CoreError& error) {

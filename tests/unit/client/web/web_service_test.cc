@@ -344,6 +344,9 @@ TEST_F(WebServiceTest, WordsTheContractForThePage) {
   const json session = ask("GET", "/api/session").object();
   EXPECT_EQ(session["words"]["operators"]["flux"], "average outward flux");
   EXPECT_EQ(session["usual"], json({{"operator", "ridge"}, {"frame", "axis"}, {"minimum", "set"}}));
+  EXPECT_EQ(session["mesh_files"][0], ".off");
+  EXPECT_EQ(session["mesh_files"].back(), ".csv") << "points, for a wrap";
+  EXPECT_EQ(session["voxel_files"], json({".nrrd", ".mha", ".nii"})) << "in one file each";
 }
 
 TEST_F(WebServiceTest, PassesParametersOn) {

@@ -133,7 +133,8 @@ TEST(RequestTarget, IsDecodedOnce) {
   EXPECT_EQ(target->query.at("name"), "x&y");
   EXPECT_EQ(target->query.at("q"), "a b");
   EXPECT_EQ(target->query.at("empty"), "");
-  for (const char* malformed : {"", "a", "/%", "/%2", "/%00", "/?a=1&a=2", "http://host/"})
+  for (const char* malformed :
+       {"", "a", "/%", "/%2", "/%0g", "/%+1", "/%-1", "/%00", "/?a=1&a=2", "http://host/"})
     EXPECT_FALSE(http::parse_target(malformed)) << malformed;
 }
 

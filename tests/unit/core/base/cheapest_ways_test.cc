@@ -43,7 +43,7 @@ std::vector<double> costs_by_rounds(const std::vector<Edge>& edges,
                                     const std::vector<std::uint32_t>& sources) {
   std::vector<double> cost(kNodes, HUGE_VAL);
   for (std::size_t node = 0; node < kNodes; ++node)
-    if (sources[node] != kNoNode) cost[node] = 0;
+    if (sources[node] != kNone) cost[node] = 0;
   for (std::uint32_t round = 0; round < kNodes; ++round) {
     for (const Edge& e : edges) {
       cost[e.b] = std::min(cost[e.b], cost[e.a] + e.cost);
@@ -56,15 +56,15 @@ std::vector<double> costs_by_rounds(const std::vector<Edge>& edges,
 TEST(CheapestWays, CostWhatRoundsOverAllEdgesGive) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     const std::vector<Edge> edges = random_graph(seed);
-    std::vector<std::uint32_t> sources(kNodes, kNoNode);
+    std::vector<std::uint32_t> sources(kNodes, kNone);
     sources[0] = 70;
     sources[seed % kNodes] = 71;
     CheapestWays ways(sources);
     ways.find(steps_of(edges));
     EXPECT_EQ(ways.cost, costs_by_rounds(edges, sources)) << seed;
     for (std::uint32_t node = 0; node < kNodes; ++node) {
-      EXPECT_EQ(ways.source[node] == kNoNode, ways.cost[node] == HUGE_VAL);
-      if (ways.step[node] == kNoNode) continue;
+      EXPECT_EQ(ways.source[node] == kNone, ways.cost[node] == HUGE_VAL);
+      if (ways.step[node] == kNone) continue;
       EXPECT_EQ(ways.source[node], ways.source[ways.step[node]]);  // the step's name is where it leaves
       EXPECT_TRUE(std::any_of(edges.begin(), edges.end(), [&](const Edge& e) {
         return std::minmax(e.a, e.b) == std::minmax(node, ways.step[node]) &&
@@ -72,22 +72,6 @@ TEST(CheapestWays, CostWhatRoundsOverAllEdgesGive) {
       }));
     }
   }
-}
-
-TEST(CheapestWays, ASourceThatWaitsIsMetButLeadsNowhere) {
-  // 0 - 1 - 2 - 3 in a row, sources at both ends; that at 3 waits.
-  const std::vector<Edge> edges{{1, 0, 1}, {1, 1, 2}, {1, 2, 3}};
-  CheapestWays ways({5, kNoNode, kNoNode, 6});
-  std::vector<std::uint32_t> met;
-  const auto steps = [&](std::uint32_t node, const auto& go) {
-    steps_of(edges)(node, [&](std::uint32_t to, double cost, std::uint32_t name) {
-      if (!go(to, cost, name) && ways.source[to] != ways.source[node]) met.push_back(to);
-    });
-  };
-  ways.find(steps, [](std::uint32_t node) { return node != 3; });
-  EXPECT_EQ(ways.source, (std::vector<std::uint32_t>{5, 5, 5, 6}));
-  EXPECT_EQ(ways.cost, (std::vector<double>{0, 1, 2, 0}));
-  EXPECT_EQ(met, std::vector<std::uint32_t>{3});
 }
 
 // The least cost of all sets of edges that join as much as all edges do.

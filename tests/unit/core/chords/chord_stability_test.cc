@@ -14,6 +14,7 @@
 #include "core/erosion/erosion.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/sheet_topology.h"
 #include "core/quality/similarity.h"

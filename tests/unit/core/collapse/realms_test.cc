@@ -53,7 +53,7 @@ TEST(Realms, BelongToTheNearestSeed) {
       float nearest = kNoWay;
       for (const auto& way : ways) nearest = std::min(nearest, way[cube]);
       if (nearest == kNoWay) {
-        EXPECT_EQ(realm[cube], DualComplex::kNone);
+        EXPECT_EQ(realm[cube], kNone);
         continue;
       }
       ASSERT_LT(realm[cube], seeds.size());
@@ -63,7 +63,7 @@ TEST(Realms, BelongToTheNearestSeed) {
       });
     }
     for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube) {
-      if (realm[cube] == DualComplex::kNone) continue;
+      if (realm[cube] == kNone) continue;
       EXPECT_EQ(together.find(cube), together.find(seeds[realm[cube]].cube)) << seed;
     }
   }

@@ -22,7 +22,7 @@ TEST(CentreLines, NoVertexLeavesAZigzag) {
   for (int n = 0; n < 8; ++n) corners.push_back({0.3 * n, n % 2 == 0 ? 0. : 0.4, 0});
   std::vector<Tube> tubes;
   for (std::size_t n = 1; n < corners.size(); ++n) tubes.push_back({corners[n - 1], corners[n], kRadius});
-  const Mesh mesh = tube_mesh(tubes, 0.04);
+  const LimbSurface surface(tube_mesh(tubes, 0.04));
   std::vector<Vec3> places;
   std::vector<Segment> segments;
   for (const Tube& tube : tubes) {
@@ -33,9 +33,10 @@ TEST(CentreLines, NoVertexLeavesAZigzag) {
   for (std::uint32_t v = 1; v < places.size(); ++v) segments.push_back({v - 1, v});
   const std::vector<Vec3> before = places, tip(places.size());
   const std::vector<char> has_tip(places.size(), 0);
-  centre_lines({.surface = mesh, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
-               places);
-  const SolidMembership solid(mesh);
+  centre_lines(
+      {.surface = surface, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+      places);
+  const SolidMembership solid(surface.mesh);
   double farthest = 0;
   for (std::size_t v = 0; v < places.size(); ++v) {
     ASSERT_TRUE(solid.contains(before[v]));
@@ -48,7 +49,7 @@ TEST(CentreLines, NoVertexLeavesAZigzag) {
 // Waves about as long as a limb is thick, which neither means over as much nor fixed passes of neighbours smooth.
 TEST(CentreLines, OfAThickTubeAreItsAxisWhateverTheyBeganAs) {
   constexpr double kRadius = 1.2, kSpacing = 0.1;
-  const Mesh mesh = tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 9}, kRadius}}, 0.2);
+  const LimbSurface surface(tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 9}, kRadius}}, 0.2));
   for (const double wave : {1.1, 1.3, 1.6}) {
     std::vector<Vec3> places;
     std::vector<Segment> segments;
@@ -57,8 +58,9 @@ TEST(CentreLines, OfAThickTubeAreItsAxisWhateverTheyBeganAs) {
     for (std::uint32_t v = 1; v < places.size(); ++v) segments.push_back({v - 1, v});
     const std::vector<Vec3> tip(places.size());
     const std::vector<char> has_tip(places.size(), 0);
-    centre_lines({.surface = mesh, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
-                 places);
+    centre_lines(
+        {.surface = surface, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+        places);
     double farthest = 0;
     for (const Vec3& at : places)
       if (at.z > 1 && at.z < 8) farthest = std::max(farthest, std::hypot(at.x, at.y));
@@ -72,7 +74,7 @@ TEST(CentreLines, HipsLieAsFarAboveTheCrotchAsLegsAreThickWhereverTheyBegan) {
   const auto foot = [](double side) { return Vec3{kApart * side, 0, -8}; };
   const std::vector<Tube> tubes{
       {{0, 0, 1}, {0, 0, 8}, 1}, {{-kApart, 0, 0.6}, foot(-1), kThick}, {{kApart, 0, 0.6}, foot(1), kThick}};
-  const Mesh mesh = tube_mesh(tubes, 0.1);
+  const LimbSurface surface(tube_mesh(tubes, 0.1));
   for (const double start : {0.4, 0.8, 1.1}) {
     DrawnLines lines;
     const std::uint32_t joint = lines.add({0, 0, start}, 1);
@@ -85,7 +87,7 @@ TEST(CentreLines, HipsLieAsFarAboveTheCrotchAsLegsAreThickWhereverTheyBegan) {
     const std::vector<Vec3> tip(lines.places.size());
     const std::vector<char> has_tip(lines.places.size(), 0);
     centre_lines(
-        {.surface = mesh, .segments = lines.segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+        {.surface = surface, .segments = lines.segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
         lines.places);
     EXPECT_NEAR(lines.places[joint].z, kThick, 2 * kSpacing) << start << ": the crotch is at 0";
     EXPECT_NEAR(lines.places[joint].x, 0, 0.2 * kSpacing) << start;
@@ -96,7 +98,7 @@ TEST(CentreLines, HipsLieAsFarAboveTheCrotchAsLegsAreThickWhereverTheyBegan) {
 TEST(CentreLines, EndAlongTheFootNotTheLeg) {
   constexpr double kSpacing = 0.25;
   const Vec3 hip{0, 0, 9}, ankle{0, 0, 0}, toe{2.2, 0, -0.8};
-  const Mesh mesh = tube_mesh(std::vector<Tube>{{hip, ankle, 1}, {ankle, toe, 1}}, 0.2);
+  const LimbSurface surface(tube_mesh(std::vector<Tube>{{hip, ankle, 1}, {ankle, toe, 1}}, 0.2));
   std::vector<Vec3> places;
   std::vector<Segment> segments;
   const auto add = [&](const Vec3& from, const Vec3& to) {
@@ -109,8 +111,9 @@ TEST(CentreLines, EndAlongTheFootNotTheLeg) {
   const std::vector<Vec3> tip(places.size(), toe);
   std::vector<char> has_tip(places.size(), 0);
   has_tip.back() = 1;
-  centre_lines({.surface = mesh, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
-               places);
+  centre_lines(
+      {.surface = surface, .segments = segments, .tip = tip, .has_tip = has_tip, .spacing = kSpacing},
+      places);
   const Vec3 end = unit(places.back() - places[places.size() - 2]);
   EXPECT_GT(dot(end, unit(toe - ankle)), std::cos(std::numbers::pi / 6));
 }

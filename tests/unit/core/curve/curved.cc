@@ -6,11 +6,8 @@ namespace affskel::core {
 
 Curved::Curved(const Mesh& mesh, double h, const std::string& directions)
     : solid_(mesh, {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}}, directions),
-      basis_(ridge_basis(solid_.solid, solid_.lattice, solid_.field)) {
-  RidgeSheetOptions options;
-  options.basis = &basis_;
-  ridge_ = ridge_sheet(solid_.solid, solid_.lattice, solid_.field, options);
-}
+      basis_(ridge_basis(solid_.solid, solid_.lattice, solid_.field)),
+      ridge_(ridge_sheet(solid_.solid, solid_.lattice, solid_.field, basis_)) {}
 
 CurveSkeleton Curved::at(double least_reach) const {
   CurveOptions options;

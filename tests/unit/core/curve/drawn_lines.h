@@ -6,6 +6,7 @@
 
 #include "core/base/vec3.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/polylines.h"
 
 namespace affskel::core {
 
@@ -30,6 +31,7 @@ struct DrawnLines {
     }
     return from;
   }
+  std::vector<std::vector<std::uint32_t>> lines() const { return polylines(places.size(), segments); }
 };
 
 }  // namespace affskel::core

@@ -38,11 +38,11 @@ TEST(JointBalls, LookBothWaysAlongALine) {
 // As near to the joint as the largest ball is large, but beside the neck: a handle that comes back to the trunk.
 TEST(JointBalls, HoldWhatLiesInThem) {
   const JointBalls joint = Trunk().joint;
-  EXPECT_TRUE(joint.hold({1, 0, 2}, 1)) << "in the largest";
-  EXPECT_TRUE(joint.hold({0.6, 0, 3}, 1)) << "in the joint's own";
-  EXPECT_FALSE(joint.hold({1.2, 0, 3.8}, 1));
-  EXPECT_TRUE(joint.hold({1.2, 0, 3.2}, 1.2)) << "in the largest, made larger";
-  EXPECT_FALSE(joint.hold({0, 0, 0.7}, 1)) << "in the largest, but farther from the joint than that is large";
+  EXPECT_TRUE(joint.hold({1, 0, 2})) << "in the largest";
+  EXPECT_TRUE(joint.hold({1.2, 0, 3.2})) << "in the largest, made larger";
+  EXPECT_TRUE(joint.hold({0.8, 0, 3})) << "in the joint's own, made larger";
+  EXPECT_FALSE(joint.hold({1.2, 0, 3.8}));
+  EXPECT_FALSE(joint.hold({0, 0, 0.7})) << "in the largest, but farther from the joint than that is large";
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(LimbForks, TwoLegsPartInTheCrotch) {
   ASSERT_EQ(legs.size(), 1U);
   EXPECT_NEAR(legs[0].place.x, 0, 0.02);
   EXPECT_NEAR(legs[0].place.z, -0.5 / std::sin(slant), 0.1);  // the mesh's edges
-  for (const LimbFork::End& limb : legs[0].limbs) EXPECT_GT(body.lines[limb.line].size(), 50U) << "the trunk";
+  for (const LineEnd& limb : legs[0].limbs) EXPECT_GT(body.lines[limb.line].size(), 50U) << "the trunk";
   EXPECT_NE(legs[0].limbs[0], legs[0].limbs[1]);
 }
 
@@ -56,7 +56,7 @@ TEST(LimbForks, ALegIsInItsJointUpToThere) {
   const Forked body(slant);
   const auto legs = body.of_legs();
   ASSERT_EQ(legs.size(), 1U);
-  for (const LimbFork::End& leg : legs[0].limbs) {
+  for (const LineEnd& leg : legs[0].limbs) {
     const std::size_t count = before_forks(body.places, body.lines, body.forks[0], leg);
     const double along = 0.5 / std::sin(slant) * std::cos(slant);
     EXPECT_NEAR(0.1 * static_cast<double>(count), along, 0.2);

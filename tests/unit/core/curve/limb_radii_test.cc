@@ -36,9 +36,7 @@ struct ThreeLimbs : DrawnLines {
   }
   // Sections of the second line's first vertices.
   void widen(double radius) { std::fill_n(area.begin() + kFirstOfThin, kWide, pi * radius * radius); }
-  std::vector<double> radii() const {
-    return limb_radii({segments, share, slice, tube, area, in_joint, 100});
-  }
+  std::vector<double> radii() const { return limb_radii({lines(), share, slice, tube, area, in_joint, 100}); }
 };
 
 TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
@@ -96,7 +94,7 @@ TEST(SliceRadii, AreThoseOfTubesWithTheVolume) {
   line.go(line.add({0, 0, 0}, 0.5), {0, 0, 1}, 20, 0.5);
   const double volume = pi * 0.25 * 21;  // half a segment beyond either end, as a ball reaches
   const std::vector<double> slice(line.places.size(), 1. / 21);
-  for (const double radius : slice_radii({line.places, line.segments, slice, line.ball, volume}))
+  for (const double radius : slice_radii({line.places, line.lines(), slice, line.ball, volume}))
     EXPECT_NEAR(radius, 0.5, 1e-12);
 }
 

@@ -18,7 +18,7 @@ TEST(LimbSections, OfATiltedPlaneThroughACylinderIsAnEllipseAboutItsAxis) {
   const LimbSections sections(cylinder);
   for (const double tilt : {0., 0.4}) {
     const Vec3 across = unit({tilt, 0, 1});
-    const LimbSection section = sections.at({0.3, -0.2, 4}, across, 3);
+    const LimbSection section = sections.at({0.3, -0.2, 4}, across, 0.75);
     EXPECT_NEAR(section.centre.x, 0, 0.02) << tilt;
     EXPECT_NEAR(section.centre.y, 0, 0.02) << tilt;
     EXPECT_NEAR(dot(section.centre - Vec3{0.3, -0.2, 4}, across), 0, 1e-12);
@@ -28,16 +28,16 @@ TEST(LimbSections, OfATiltedPlaneThroughACylinderIsAnEllipseAboutItsAxis) {
 
 TEST(LimbSections, ThicknessIsATubesRadiusBesideADentToo) {
   Mesh tube = make_cylinder(1, 8, 128);
-  EXPECT_NEAR(LimbSections(tube).thickness({0, 0, 4}, 4), 1, 0.03);
+  EXPECT_NEAR(LimbSections(tube).thickness({0, 0, 4}, 1), 1, 0.03);
   const Mesh with_dent = joined(tube, reversed(moved(make_sphere(0.1, 200), {0.5, 0, 4})));
-  EXPECT_NEAR(LimbSections(with_dent).thickness({0, 0, 4}, 4), 1, 0.03)
+  EXPECT_NEAR(LimbSections(with_dent).thickness({0, 0, 4}, 1), 1, 0.03)
       << "the distance to the surface is 0.4";
 }
 
 // The wedge between two planes through the axis of a torus has its centroid farther out than the circle.
 TEST(LimbSections, OfATorusIsADiscAboutItsCircle) {
   const Mesh torus = make_torus(3, 1, 20000);
-  const LimbSection section = LimbSections(torus).at({2.6, 0, 0.1}, {0, 1, 0}, 4);
+  const LimbSection section = LimbSections(torus).at({2.6, 0, 0.1}, {0, 1, 0}, 1);
   EXPECT_NEAR(section.centre.x, 3, 0.02);
   EXPECT_NEAR(section.centre.z, 0, 0.02);
   EXPECT_NEAR(section.radius, 1, 0.01);
@@ -45,7 +45,7 @@ TEST(LimbSections, OfATorusIsADiscAboutItsCircle) {
 
 TEST(LimbSections, ANeighbourInThePlaneIsNotSeen) {
   const Mesh both = joined(make_cylinder(1, 8, 64), moved(make_cylinder(1, 8, 64), {2.1, 0, 0}));
-  const LimbSection section = LimbSections(both).at({0.1, 0, 4}, {0, 0, 1}, 4);
+  const LimbSection section = LimbSections(both).at({0.1, 0, 4}, {0, 0, 1}, 1);
   EXPECT_NEAR(section.centre.x, 0, 0.01);
   EXPECT_NEAR(section.radius, 1, 0.01);
 }
@@ -53,7 +53,7 @@ TEST(LimbSections, ANeighbourInThePlaneIsNotSeen) {
 // Rays along a long box end at kWidest times the middle one.
 TEST(LimbSections, RaysAreNoLongerThanTwiceTheMiddleOne) {
   const Mesh box = make_box(20, 1, 1);
-  const LimbSection section = LimbSections(box).at({10, 0.5, 0.5}, {0, 0, 1}, 30);
+  const LimbSection section = LimbSections(box).at({10, 0.5, 0.5}, {0, 0, 1}, 7.5);
   EXPECT_NEAR(section.centre.x, 10, 1e-9);
   EXPECT_LT(section.radius, 2);
 }
@@ -77,7 +77,7 @@ TEST(LimbSections, AnAreaHasNoPartOfWhatLiesApart) {
 TEST(LimbSections, AnEllipseIsFound) {
   Mesh flat = make_cylinder(1, 8, 128);
   for (Vec3& p : flat.points) p.x *= 2;
-  const LimbEllipse ellipse = LimbSections(flat).ellipse({0, 0, 4}, {1, 0, 0}, {0, 1, 0}, 9);
+  const LimbEllipse ellipse = LimbSections(flat).ellipse({0, 0, 4}, {1, 0, 0}, {0, 1, 0}, 2.25);
   EXPECT_NEAR(ellipse.radius(), std::sqrt(2), 0.01);
   EXPECT_NEAR(ellipse.mean, 0.5 * (1 + 0.25), 0.01);
   EXPECT_NEAR(ellipse.cosine, 0.5 * (0.25 - 1), 0.01);
@@ -89,7 +89,7 @@ TEST(LimbSections, AnOpenSideHardlyChangesTheEllipse) {
   const Mesh solid =
       tube_mesh(std::vector<Tube>{{{0, 0, -5}, {0, 0, 5}, 1}, {{0, 0, 0}, {5, 0, 0}, 0.3}}, 0.15);
   const LimbSections sections(solid);
-  const LimbEllipse open = sections.ellipse({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 4);
+  const LimbEllipse open = sections.ellipse({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);
   EXPECT_NEAR(open.radius(), 1, 0.06);
   EXPECT_LT(1 / std::sqrt(open.mean + open.cosine), 1.2) << "towards the arm";
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/curve/drawn_lines.h"
 
 namespace affskel::core {
@@ -42,9 +43,9 @@ struct Tubed : DrawnLines {
       radius.push_back((v < little ? 1 : 0.1) * ball[v] * std::sqrt(wide(places[v]).x));
     std::vector<std::vector<LimbFork>> parts(places.size());
     for (const LimbFork& fork : forks) parts[0].push_back(fork);
-    std::vector<std::uint32_t> of(places.size(), kNoHub);
+    std::vector<std::uint32_t> of(places.size(), kNone);
     for (std::uint32_t v = 0; v < of_hub; ++v) of[v] = 0;
-    return places[LimbTubes(places, segments, ball, radius, parts, {hubs, of}, ellipse).vertex_of(at, from)];
+    return places[limb_tubes({places, lines(), ball, radius, parts, {hubs, of}, ellipse})(at, from)];
   }
 };
 

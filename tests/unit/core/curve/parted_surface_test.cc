@@ -46,7 +46,7 @@ TEST(PartedSurface, AreTheNearestToAPlaceInward) {
     const Vec3 place = centroid(mesh, mesh.triangles[t]) - (half / norm(n)) * n;
     double least = 1e300;
     for (const Vec3& at : places) least = std::min(least, norm(at - place));
-    ASSERT_NE(found[t], DualComplex::kNone);
+    ASSERT_NE(found[t], kNone);
     EXPECT_NEAR(norm(places[found[t]] - place), least, 1e-12);
   }
 }
@@ -57,7 +57,7 @@ TEST(PartedSurface, AtAGapBelongToTheirOwnSide) {
   const LatticeSolid solid(plates, 0.2);
   const std::vector<std::uint32_t> found = points_under(solid);
   for (std::size_t t = 0; t < found.size(); ++t) {
-    ASSERT_NE(found[t], DualComplex::kNone);
+    ASSERT_NE(found[t], kNone);
     const LatticePlace at = lattice_places(solid.lattice, {&found[t], 1})[0];
     const Vec3 place = scaled_place(solid.lattice, {double(at[0]), double(at[1]), double(at[2])});
     const double middle = 0;  // of the box of both
@@ -72,7 +72,7 @@ TEST(PartedSurface, AreNoneWhereTheLatticeHasNone) {
   const LatticeSolid solid(needle, 0.5);
   const std::vector<std::uint32_t> found = points_under(solid);
   int none = 0;
-  for (std::size_t t = 0; t < found.size(); ++t) none += found[t] == DualComplex::kNone;
+  for (std::size_t t = 0; t < found.size(); ++t) none += found[t] == kNone;
   EXPECT_GT(none, 0);
   EXPECT_LT(none, 12);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/erosion/computed.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

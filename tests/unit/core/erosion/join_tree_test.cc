@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/erosion/directions.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
@@ -218,7 +219,7 @@ TEST(JoinTree, LooksUpALowerBoundOfAllVolumesAboveWhereTheyFall) {
     std::vector<double> least(tree.arcs.size());  // of what was sampled of an arc and above it
     for (std::size_t a = tree.arcs.size(); a-- > 0;) {
       const Arc& arc = tree.arcs[a];
-      const bool root = arc.parent == Arc::kNone;
+      const bool root = arc.parent == kNone;
       const double top = root ? tree.cubics[arc.last_cubic].height : arc.top;
       least[a] = root ? 1e300 : least[arc.parent];
       for (int i = kSamples - 1; i >= 0; --i) {
@@ -244,7 +245,7 @@ TEST(JoinTree, CountsMinimaOfAComb) {
     const JoinTree& tree = builder.build((1 / norm(d)) * d);
     std::vector<bool> has_child(tree.arcs.size(), false);
     for (const Arc& arc : tree.arcs) {
-      if (arc.parent != Arc::kNone) has_child[arc.parent] = true;
+      if (arc.parent != kNone) has_child[arc.parent] = true;
     }
     return std::count(has_child.begin(), has_child.end(), false);
   };
@@ -299,7 +300,7 @@ TEST(JoinTree, EverySolidIsARootOfItsVolume) {
     const JoinTree& tree = builder.build(d);
     std::vector<double> volumes;
     for (const Arc& arc : tree.arcs) {
-      if (arc.parent == Arc::kNone)
+      if (arc.parent == kNone)
         volumes.push_back(tree.cubics[arc.last_cubic].volume * std::pow(solid.scale(), 3));
     }
     std::vector<double> expected = solid.solid_volume;

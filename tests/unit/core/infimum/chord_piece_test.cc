@@ -21,6 +21,7 @@
 #include "core/infimum/piece_input.h"
 #include "core/infimum/saddle_search.h"
 #include "core/infimum/samples.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

@@ -35,7 +35,7 @@ void expect_lines(const Mesh& mesh, int lines) {
   int begin = 0;
   for (const CrossingPair& pair : pairs) {
     EXPECT_TRUE(once.insert(std::minmax(pair.first, pair.second)).second);
-    if (pair.links[0] == CrossingPair::kNone) {
+    if (pair.links[0] == kNone) {
       ++begin;
       continue;
     }

@@ -15,6 +15,7 @@
 #include "core/infimum/piece_input.h"
 #include "core/infimum/samples.h"
 #include "core/infimum/section_loops.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

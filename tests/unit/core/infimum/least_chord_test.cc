@@ -121,7 +121,7 @@ TEST_F(BodyTest, SaddlesLieInThePlane) {
   for (const Vec3& x : points_) {
     const LeastChord least = descent_.descend(x, start_at(draw_direction(random)));
     for (const std::uint32_t s : least.saddles) {
-      if (s == LeastChord::kNone) continue;
+      if (s == kNone) continue;
       EXPECT_NEAR(dot(least.normal, input_.mesh.points[s] - x), 0, 1e-13);
     }
     EXPECT_GE(least.slope, least.area * (1 - 1e-12));

@@ -28,7 +28,7 @@ class NearPlacesTest : public testing::Test {
         places_(places_of(lattice_)),
         around_(lattice_.points),
         least_(lattice_.points) {
-    for (auto& around : around_) around.fill(NearPlaces::kNobody);
+    for (auto& around : around_) around.fill(kNone);
     for_each_edge(lattice_, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto&) {
       around_[x][2 * axis] = y;
       around_[y][2 * axis + 1] = x;
@@ -50,12 +50,12 @@ TEST_F(NearPlacesTest, AreTwoStepsAway) {
   for (std::uint32_t p = 0; p < lattice_.points; ++p) {
     std::set<std::uint32_t> expected;
     for (const std::uint32_t q : around_[p]) {
-      if (q == NearPlaces::kNobody) continue;
+      if (q == kNone) continue;
       expected.insert(q);
       expected.insert(around_[q].begin(), around_[q].end());
     }
     expected.erase(p);
-    expected.erase(NearPlaces::kNobody);
+    expected.erase(kNone);
     std::set<std::uint32_t> found;
     near(p).for_each([&](std::uint32_t q, const Vec3& way) {
       EXPECT_TRUE(found.insert(q).second);

@@ -25,6 +25,7 @@
 #include "core/infimum/refinement.h"
 #include "core/infimum/samples.h"
 #include "core/lattice/lattice.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

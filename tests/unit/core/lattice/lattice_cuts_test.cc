@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/base/none.h"
 #include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
 #include "core/stopping_context.h"
@@ -32,9 +33,7 @@ void for_each_edge(const Lattice& lattice,
       for (std::int64_t k = -1; k < dims[2]; ++k) {
         for (unsigned step = 1; step < 8; ++step) {
           const Indices from{i, j, k}, to{i + ((step >> 2) & 1), j + ((step >> 1) & 1), k + (step & 1)};
-          const auto inside = [&](const Indices& p) {
-            return ranks.at(p[0], p[1], p[2]) != LayerIndex::kOutside;
-          };
+          const auto inside = [&](const Indices& p) { return ranks.at(p[0], p[1], p[2]) != kNone; };
           visit(from, to, step, inside(from), inside(to));
         }
       }

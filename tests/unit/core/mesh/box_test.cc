@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/shapes/shapes.h"
+
 namespace affskel::core {
 namespace {
 
@@ -30,6 +32,15 @@ TEST(Box, ByItselfHoldsNothing) {
   box.include(Vec3{4, 4, 4});
   EXPECT_EQ(box.sides(), Vec3{});
   EXPECT_EQ(box.longest_axis(), 0U);  // of equal sides the first
+}
+
+TEST(Box, DiagonalIsThatOfTheUsedVertices) {
+  Mesh box = make_box(2, 3, 6);
+  EXPECT_EQ(box_diagonal(box), 7);
+  box.points.push_back({1000, 0, 0});  // used by nothing
+  EXPECT_EQ(box_diagonal(box), 7);
+  EXPECT_EQ(box_diagonal({{{0, 0, 0}, {2, 3, 6}}, {}}), 7);
+  EXPECT_EQ(box_diagonal({}), 0);
 }
 
 }  // namespace

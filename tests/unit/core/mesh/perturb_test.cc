@@ -63,15 +63,6 @@ TEST(PerturbTest, VerticesAtOnePlaceMoveTogether) {
   EXPECT_EQ(make_solid(noisy).mesh.points.size(), 8u);  // welds, and is closed
 }
 
-TEST(PerturbTest, DiagonalIsThatOfTheUsedVertices) {
-  Mesh box = make_box(2, 3, 6);
-  EXPECT_EQ(box_diagonal(box), 7);
-  box.points.push_back({1000, 0, 0});  // used by nothing
-  EXPECT_EQ(box_diagonal(box), 7);
-  EXPECT_EQ(box_diagonal({{{0, 0, 0}, {2, 3, 6}}, {}}), 7);
-  EXPECT_EQ(box_diagonal({}), 0);
-}
-
 TEST(PerturbTest, RefusesWhatIsNoNoise) {
   const Mesh box = make_box(1, 1, 1);
   EXPECT_THROW(perturb(box, {-1, 1}), CoreError);

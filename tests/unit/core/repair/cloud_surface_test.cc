@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/split_mix64.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/repair/repair_mesh.h"
 #include "core/shapes/body.h"

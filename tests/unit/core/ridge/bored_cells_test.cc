@@ -7,7 +7,6 @@
 
 #include "core/collapse/collapse.h"
 #include "core/collapse/lattice_solids.h"
-#include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"

@@ -33,7 +33,7 @@ TEST(RidgeSheet, OfABodyReachesAllItsEnds) {
   const Mesh mesh = make_body({.triangles = 1000});
   const double h = box_of(mesh).longest_side() / 200;
   const ErodedSolid body(mesh, axes(h), "triangles");
-  const RidgeSheet sheet = ridge_sheet(body.solid, body.lattice, body.field);
+  const RidgeSheet sheet = ridge_of(body);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
   EXPECT_FALSE(sheet.triangles.empty());
   EXPECT_GT(sheet.limbs, 0U);
@@ -67,16 +67,14 @@ TEST(RidgeSheet, OfABodyUnderNoiseThatMakesItCrossItselfKeepsItsShape) {
   const RidgeBasis basis = ridge_basis(noisy.solid, noisy.lattice, noisy.field);
   EXPECT_GT(basis.topology.holes, 20U);
   EXPECT_GT(basis.topology.cavities, 0U);
-  const RidgeSheet sheet =
-      ridge_sheet(noisy.solid, noisy.lattice, noisy.field, {.bounds = {}, .basis = &basis});
+  const RidgeSheet sheet = ridge_sheet(noisy.solid, noisy.lattice, noisy.field, basis);
   BettiNumbers expected = sheet.lattice;
   expected.components -= sheet.fragments;
   EXPECT_EQ(topology(sheet), expected);
   EXPECT_LE(expected.holes, 2U);
   EXPECT_EQ(expected.cavities, 0U);
   std::vector<Vec3> clean_places, noisy_places;
-  for (const SheetVertex& v : ridge_sheet(body.solid, body.lattice, body.field).vertices)
-    clean_places.push_back(body.place(v.position));
+  for (const SheetVertex& v : ridge_of(body).vertices) clean_places.push_back(body.place(v.position));
   for (const SheetVertex& v : sheet.vertices) noisy_places.push_back(noisy.place(v.position));
   const Similarity alike = similarity(clean_places, noisy_places);
   const double radius = box_diagonal(mesh) / 128;
@@ -91,7 +89,7 @@ TEST(RidgeSheet, OfAMirrorSymmetricBodyIsMirrorSymmetric) {
     const Mesh mesh = make_body({.triangles = triangles});
     const double h = box_of(mesh).longest_side() / 150;
     const ErodedSolid body(mesh, axes(h), "triangles");
-    const RidgeSheet sheet = ridge_sheet(body.solid, body.lattice, body.field);
+    const RidgeSheet sheet = ridge_of(body);
     std::vector<Vec3> places;
     for (const SheetVertex& v : sheet.vertices) places.push_back(body.place(v.position));
     const PointIndex index(places);
@@ -106,7 +104,7 @@ TEST(RidgeSheet, OfAMirrorSymmetricBodyIsMirrorSymmetric) {
 TEST(RidgeSheet, OfABodyHasNoThornsInItsLimbs) {
   const Mesh mesh = make_body({.triangles = 500});
   const ErodedSolid body(mesh, axes(box_of(mesh).longest_side() / 150), "triangles");
-  const RidgeSheet sheet = ridge_sheet(body.solid, body.lattice, body.field);
+  const RidgeSheet sheet = ridge_of(body);
   Edges(sheet.vertices.size(), sheet.triangles)
       .for_each(
           [](std::uint32_t, std::uint32_t, std::span<const EdgeSide> sides) { EXPECT_LE(sides.size(), 2U); });
@@ -118,7 +116,7 @@ TEST(RidgeSheet, OfABodyIsNotFoldedAtItsRims) {
   const Mesh mesh = make_body({.triangles = 1000});
   const double h = box_of(mesh).longest_side() / 150;
   const ErodedSolid body(mesh, axes(h), "triangles");
-  const RidgeSheet sheet = ridge_sheet(body.solid, body.lattice, body.field);
+  const RidgeSheet sheet = ridge_of(body);
   const auto at = [&](std::uint32_t v) { return sheet.vertices[v].position; };
   std::size_t edges = 0, folded = 0;
   Edges(sheet.vertices.size(), sheet.triangles)
@@ -144,7 +142,7 @@ TEST(RidgeSheet, KeepsOffTheSurfaceAndHasNoTriangleWithoutArea) {
   for (const auto& [mesh, steps] : {std::pair{body, 150}, {ring, 40}}) {
     const double h = box_of(mesh).longest_side() / steps;
     const ErodedSolid solid(mesh, axes(h), "triangles");
-    const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+    const RidgeSheet sheet = ridge_of(solid);
     const std::vector<float> depth = local_depth(solid.lattice, solid.field);
     const DistanceToMesh surface(mesh);
     std::size_t near = 0;
@@ -178,7 +176,7 @@ TEST(RidgeSheet, OfAStoolHasNoCornersInItsWays) {
       collapse_edges(moved(mesh_zero_set(stool, {{-1, -1, -1.2}, {1, 1, 0.4}, 0.04}), {2, 0, 0}), 2000);
   for (const double h : {1.0 / 34, 1.0 / 40}) {
     const ErodedSolid solid(mesh, axes(h), "sphere:1280");
-    const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+    const RidgeSheet sheet = ridge_of(solid);
     std::vector<std::vector<std::uint32_t>> beside(sheet.vertices.size());
     for (const auto& [a, b] : sheet.segments) {
       beside[a].push_back(b);

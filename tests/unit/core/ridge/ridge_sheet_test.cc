@@ -46,7 +46,7 @@ struct Range {
 TEST(RidgeSheet, OfATorusIsAnAnnulusOffTheInnerSurface) {
   const double h = 2.0 / 12;
   const ErodedSolid torus(make_torus(3, 1, 1024), axes(h), "triangles");
-  const RidgeSheet sheet = ridge_sheet(torus.solid, torus.lattice, torus.field);
+  const RidgeSheet sheet = ridge_of(torus);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 1, 0}));
   EXPECT_EQ(rim_loops(sheet), 2U);
   EXPECT_TRUE(sheet.segments.empty());
@@ -71,7 +71,7 @@ TEST(RidgeSheet, OfATorusIsAnAnnulusOffTheInnerSurface) {
 TEST(RidgeSheet, OfANoisyTorusKeepsOffTheInnerSurface) {
   const double h = 0.09;
   const ErodedSolid torus(perturb(make_torus(3, 1, 2048), {.sigma = 0.03}), axes(h), "triangles");
-  const RidgeSheet sheet = ridge_sheet(torus.solid, torus.lattice, torus.field);
+  const RidgeSheet sheet = ridge_of(torus);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 1, 0}));
   for (const SheetVertex& v : sheet.vertices) EXPECT_NEAR(torus.place(v.position).z, 0, h);
 }
@@ -87,7 +87,7 @@ TEST(RidgeSheet, OfANoisyPlateWithAHoleLiesInItsMiddle) {
   const Mesh mesh = mesh_zero_set(plate, {{-0.7, -0.7, -0.3}, {0.7, 0.7, 0.3}, 0.05});
   const ErodedSolid noisy(perturb(mesh, {.sigma = 0.01, .seed = 2}), axes(h), "sphere:500");
   ASSERT_TRUE(noisy.solid.self_intersecting);
-  const RidgeSheet sheet = ridge_sheet(noisy.solid, noisy.lattice, noisy.field);
+  const RidgeSheet sheet = ridge_of(noisy);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 1, 0}));
   for (const SheetVertex& v : sheet.vertices) EXPECT_NEAR(noisy.place(v.position).z, 0, h);
 }
@@ -96,7 +96,7 @@ TEST(RidgeSheet, OfANoisyPlateWithAHoleLiesInItsMiddle) {
 TEST(RidgeSheet, OfAFlatBoxIsTheMiddleRectangleAtEverySpacing) {
   for (const double h : {6.0 / 32, 6.0 / 45}) {
     const ErodedSolid box(make_box(6, 3, 1, 1), axes(h), "sphere:1280");
-    const RidgeSheet sheet = ridge_sheet(box.solid, box.lattice, box.field);
+    const RidgeSheet sheet = ridge_of(box);
     EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0})) << h;
     EXPECT_TRUE(sheet.segments.empty());
     Range x, y;
@@ -118,7 +118,7 @@ TEST(RidgeSheet, OfAFlatBoxIsTheMiddleRectangleAtEverySpacing) {
 TEST(RidgeSheet, OfABallIsItsCentre) {
   const double h = 0.125;
   const ErodedSolid ball(make_sphere(1, 320), axes(h), "triangles");
-  const RidgeSheet sheet = ridge_sheet(ball.solid, ball.lattice, ball.field);
+  const RidgeSheet sheet = ridge_of(ball);
   ASSERT_FALSE(sheet.vertices.empty());
   EXPECT_EQ(topology(sheet).components, 1U);
   EXPECT_TRUE(sheet.segments.empty());
@@ -139,7 +139,7 @@ TEST(RidgeSheet, OfAnEllipticCylinderIsAStripRoundItsAxis) {
   Mesh cylinder = make_cylinder(1, 6, 32);
   for (Vec3& p : cylinder.points) p.y *= 0.5;
   const ErodedSolid solid(cylinder, axes(h), "triangles+sphere:1280");
-  const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+  const RidgeSheet sheet = ridge_of(solid);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
   Range x, z;
   for (const SheetVertex& v : sheet.vertices) {
@@ -176,7 +176,7 @@ TEST(RidgeSheet, OfARoundCylinderIsItsAxis) {
   const double h = 0.1;
   const Mesh round = make_cylinder(1, 6, 32);
   const ErodedSolid cylinder(round, axes(h), "triangles+sphere:320");
-  const RidgeSheet axis = ridge_sheet(cylinder.solid, cylinder.lattice, cylinder.field);
+  const RidgeSheet axis = ridge_of(cylinder);
   expect_axis(cylinder, axis, 0.5 * h, 1, 5);
   // The level plane through a point of the axis cuts off pi z, up to the 32-gon's share; smaller ones meet
   // the sample points beside it, where tilted planes have larger sections.
@@ -189,13 +189,13 @@ TEST(RidgeSheet, OfARoundCylinderIsItsAxis) {
   Mesh narrow = round;
   for (Vec3& p : narrow.points) p.y *= 0.5;
   const ErodedSolid elliptic(narrow, axes(h, 1, 0.5, 1), "triangles+sphere:320");
-  expect_axis(elliptic, ridge_sheet(elliptic.solid, elliptic.lattice, elliptic.field), 0.5 * h, 1, 5);
+  expect_axis(elliptic, ridge_of(elliptic), 0.5 * h, 1, 5);
 }
 
 TEST(RidgeSheet, OfAShortRoundCylinderIsItsAxis) {
   const double h = 0.1;
   const ErodedSolid cylinder(make_cylinder(1, 3, 32), axes(h), "triangles+sphere:1280");
-  const RidgeSheet axis = ridge_sheet(cylinder.solid, cylinder.lattice, cylinder.field);
+  const RidgeSheet axis = ridge_of(cylinder);
   expect_axis(cylinder, axis, 0.5 * h, 1.2, 1.8);
 }
 
@@ -203,7 +203,7 @@ TEST(RidgeSheet, OfAConeIsItsAxis) {
   const double h = 0.1;
   const ErodedSolid cone(make_cone(1, 6, 32), axes(h), "triangles+sphere:320");
   // The way to its tip goes on straight from where it is thinner than the lattice resolves.
-  expect_axis(cone, ridge_sheet(cone.solid, cone.lattice, cone.field), 0.5 * h, 1, 5.4);
+  expect_axis(cone, ridge_of(cone), 0.5 * h, 1, 5.4);
 }
 
 // A stalk has a ridge, the apple on it none that lasts: what is round on all sides has no direction.
@@ -214,7 +214,7 @@ TEST(RidgeSheet, LeadsFromALimbToTheMiddleOfARoundBody) {
   const double h = 0.1;
   const ErodedSolid solid(mesh_zero_set(apple, {{-1.3, -1.3, -1.3}, {1.3, 1.3, 2.3}, 0.1}), axes(h),
                           "sphere:320");
-  const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+  const RidgeSheet sheet = ridge_of(solid);
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
   Range z, off_axis;
   for (const SheetVertex& v : sheet.vertices) {
@@ -230,7 +230,7 @@ TEST(RidgeSheet, LeadsFromALimbToTheMiddleOfARoundBody) {
 TEST(RidgeSheet, OfTwoCylindersIsTheAxisOfEach) {
   const Mesh first = make_cylinder(0.5, 6, 32), second = moved(first, {2.5, 0, 0});
   const ErodedSolid both(joined(first, second), axes(0.1), "triangles+sphere:320");
-  const RidgeSheet sheet = ridge_sheet(both.solid, both.lattice, both.field);
+  const RidgeSheet sheet = ridge_of(both);
   EXPECT_EQ(topology(sheet), (BettiNumbers{2, 0, 0}));
   EXPECT_TRUE(sheet.triangles.empty());
 }
@@ -252,8 +252,9 @@ TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
   RidgeConstants constants;
   constants.min_width = constants.max_width = 1;
   constants.min_radius_share = 0;  // E is large at the surface, too
-  const RidgeSheet sheet =
-      ridge_sheet(box.solid, box.lattice, field_of_branches(box.lattice, {shell}), {}, constants);
+  const FrameField field = field_of_branches(box.lattice, {shell});
+  const RidgeBasis basis = ridge_basis(box.solid, box.lattice, field, 1, nullptr, constants);
+  const RidgeSheet sheet = ridge_sheet(box.solid, box.lattice, field, basis, {}, constants);
   // The box has no void: the pocket is opened, at one square.
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(sheet.opened, 1U);
@@ -269,7 +270,7 @@ TEST(RidgeSheet, HasTheTopologyOfTheLattice) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) meshes.push_back(random_solid(seed));
   for (std::size_t n = 0; n < meshes.size(); ++n) {
     const ErodedSolid solid(meshes[n], axes(n < 2 ? 0.4 : 0.13), "sphere:80");
-    const RidgeSheet sheet = ridge_sheet(solid.solid, solid.lattice, solid.field);
+    const RidgeSheet sheet = ridge_of(solid);
     BettiNumbers expected = sheet.lattice;
     expected.components -= sheet.fragments;
     EXPECT_EQ(topology(sheet), expected) << n;
@@ -288,8 +289,7 @@ TEST(RidgeSheet, HasNoUnitOfLength) {
   const Mesh box = make_box(4, 2, 1, 1);
   const ErodedSolid one(box, axes(0.2), "sphere:320"),
       eight(moved(box, {0, 0, 0}, 8), axes(1.6), "sphere:320");
-  const RidgeSheet small = ridge_sheet(one.solid, one.lattice, one.field),
-                   large = ridge_sheet(eight.solid, eight.lattice, eight.field);
+  const RidgeSheet small = ridge_of(one), large = ridge_of(eight);
   ASSERT_EQ(small.triangles, large.triangles);
   for (std::size_t v = 0; v < small.vertices.size(); ++v) {
     EXPECT_NEAR(norm(8 * small.vertices[v].position - large.vertices[v].position), 0, 1e-4);
@@ -301,7 +301,7 @@ TEST(RidgeSheet, HasNoUnitOfLength) {
 TEST(RidgeSheet, OfTwoSolidsIsThatOfEach) {
   const Mesh box = make_box(4, 2, 1, 1);
   const ErodedSolid both(joined(box, moved(box, {0, 0, 1.4})), axes(0.2), "sphere:320");
-  const RidgeSheet sheet = ridge_sheet(both.solid, both.lattice, both.field);
+  const RidgeSheet sheet = ridge_of(both);
   EXPECT_EQ(topology(sheet), (BettiNumbers{2, 0, 0}));
   EXPECT_EQ(sheet.lattice, (BettiNumbers{2, 0, 0}));
 }
@@ -313,9 +313,8 @@ TEST(RidgeSheet, OfABasisIsTheSameAtEveryThresholdAndNumberOfThreads) {
     RidgeSheetOptions options;
     options.bounds.low *= share;
     options.bounds.high *= share;
-    const RidgeSheet expected = ridge_sheet(box.solid, box.lattice, box.field, options);
-    options.basis = &basis;
-    const RidgeSheet found = ridge_sheet(box.solid, box.lattice, box.field, options);
+    const RidgeSheet expected = ridge_of(box, options);
+    const RidgeSheet found = ridge_sheet(box.solid, box.lattice, box.field, basis, options);
     ASSERT_FALSE(found.triangles.empty());
     EXPECT_EQ(found.triangles, expected.triangles);
     EXPECT_EQ(found.segments, expected.segments);
@@ -326,9 +325,7 @@ TEST(RidgeSheet, OfABasisIsTheSameAtEveryThresholdAndNumberOfThreads) {
     }
   }
   const ErodedSolid other(make_box(4, 2, 1, 1), axes(0.25), "sphere:80");
-  RidgeSheetOptions options;
-  options.basis = &basis;
-  EXPECT_THROW(ridge_sheet(other.solid, other.lattice, other.field, options), CoreError);
+  EXPECT_THROW(ridge_sheet(other.solid, other.lattice, other.field, basis), CoreError);
 }
 
 TEST(RidgeSheet, StopsWhenItsContextAsks) {
@@ -339,7 +336,7 @@ TEST(RidgeSheet, StopsWhenItsContextAsks) {
   RidgeSheetOptions options;
   options.context = &context;
   try {
-    ridge_sheet(box.solid, box.lattice, box.field, options);
+    ridge_of(box, options);
     FAIL() << "not stopped";
   } catch (const CoreError& error) {
     EXPECT_EQ(error.code(), CoreError::Code::kCancelled);

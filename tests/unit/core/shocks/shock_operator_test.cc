@@ -6,7 +6,6 @@
 #include <random>
 
 #include "core/normal_block.h"
-#include "core/shocks/zucker_hummel.h"
 
 namespace affskel::core {
 namespace {
@@ -123,16 +122,6 @@ TEST(NextThreshold, ContinuesThePublishedLadder) {
   EXPECT_EQ(next_threshold(7), 9);
   EXPECT_EQ(next_threshold(14), 18);
   EXPECT_TRUE(std::isfinite(next_threshold(1e308)));
-}
-
-TEST(Divergence, IsTheOperatorsOwn) {
-  NormalBlock block({4, 4, 4});
-  block.fill([](const Indices& p) { return Vec3{p[0] * 0.1, p[1] * p[1] * 0.01, p[2] * 0.2}; });
-  EXPECT_EQ(
-      divergence(ShockOperator::kZuckerHummel, block.lattice, block.normals, block.optimal),
-      at_every_point(block.lattice, block.normals, block.optimal, nullptr, [&](const Neighbourhood& normals) {
-        return zucker_hummel_divergence(normals, block.lattice.spacing);
-      }));
 }
 
 }  // namespace

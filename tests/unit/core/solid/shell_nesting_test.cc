@@ -42,7 +42,7 @@ class Oracle {
 
   ShellNesting nest() const {
     ShellNesting result{std::vector<std::uint32_t>(shells_.count, 0),
-                        std::vector<std::uint32_t>(shells_.count, ShellNesting::kNone)};
+                        std::vector<std::uint32_t>(shells_.count, kNone)};
     std::vector<std::vector<std::uint32_t>> round(shells_.count);
     for (std::uint32_t a = 0; a < shells_.count; ++a) {
       for (std::uint32_t b = 0; b < shells_.count; ++b) {
@@ -53,7 +53,7 @@ class Oracle {
     for (std::uint32_t a = 0; a < shells_.count; ++a) {
       for (const std::uint32_t b : round[a]) {
         std::uint32_t& parent = result.parent[a];
-        if (parent == ShellNesting::kNone || result.depth[b] > result.depth[parent]) parent = b;
+        if (parent == kNone || result.depth[b] > result.depth[parent]) parent = b;
       }
     }
     return result;
@@ -163,14 +163,14 @@ TEST(NestShells, TakesOneSurfaceAlone) {
   shells.add(make_box(1, 1, 1));
   const ShellNesting nesting = shells.nest();
   EXPECT_EQ(nesting.depth, std::vector<std::uint32_t>{0});
-  EXPECT_EQ(nesting.parent, std::vector<std::uint32_t>{ShellNesting::kNone});
+  EXPECT_EQ(nesting.parent, std::vector<std::uint32_t>{kNone});
 }
 
 TEST(NestShells, CountsWhatIsRoundEachSurface) {
   const ShellNesting nesting = nested_boxes(50).nest();
   for (std::uint32_t i = 0; i < 50; ++i) {
     EXPECT_EQ(nesting.depth[i], 49 - i);
-    EXPECT_EQ(nesting.parent[i], i == 49 ? ShellNesting::kNone : i + 1);
+    EXPECT_EQ(nesting.parent[i], i == 49 ? kNone : i + 1);
   }
 }
 

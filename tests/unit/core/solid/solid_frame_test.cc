@@ -12,6 +12,7 @@
 #include "core/erosion/directions.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"

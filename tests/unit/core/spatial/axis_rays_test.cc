@@ -15,7 +15,7 @@ namespace {
 // The triangle that the ray meets first, in general position, by trying all of them.
 std::uint32_t brute_force(const Mesh& mesh, const Vec3& q, const Vec3& way) {
   double nearest = 1e300;
-  std::uint32_t best = AxisRays::kNone;
+  std::uint32_t best = kNone;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [i, j, k] = mesh.triangles[t];
     const Vec3 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
@@ -45,7 +45,7 @@ TEST(AxisRays, FindWhatBruteForceFinds) {
           const AxisRays::Hit hit = rays.shoot(q, axis, sense > 0);
           EXPECT_EQ(hit.triangle, brute_force(mesh, q, way));
           EXPECT_EQ(hit.winding, std::lround(winding_number(mesh, q)));
-          hits += hit.triangle != AxisRays::kNone;
+          hits += hit.triangle != kNone;
         }
       }
     }
@@ -62,7 +62,7 @@ TEST(AxisRays, CrossAnEdgeOnce) {
       for (const Vec3& q : {Vec3{2, 2, 2}, {1, 1, 1}, {1.5, 1.5, 1.5}, {0.5, 3, 1}}) {
         const AxisRays::Hit hit = rays.shoot(q, axis, upward);
         EXPECT_EQ(hit.winding, 1);
-        EXPECT_NE(hit.triangle, AxisRays::kNone);
+        EXPECT_NE(hit.triangle, kNone);
       }
     }
   }

@@ -12,7 +12,7 @@ namespace {
 // Least s at which the ray leaves through a triangle not at the vertex, by trying all of them.
 double brute_force(const Mesh& mesh, std::uint32_t vertex, const Vec3& d, std::uint32_t& best) {
   double best_s = 1e300;
-  best = RayShooter::kNone;
+  best = kNone;
   const Vec3 o = mesh.points[vertex];
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& c = mesh.triangles[t];
@@ -40,7 +40,7 @@ TEST(RayShooter, FindsWhatBruteForceFinds) {
       std::uint32_t expected = 0;
       brute_force(mesh, v, d, expected);
       EXPECT_EQ(rays.first_exit_below(v, d, [](std::uint32_t) { return true; }), expected);
-      hits += expected != RayShooter::kNone;
+      hits += expected != kNone;
     }
   }
   EXPECT_GT(hits, 100U);
@@ -50,8 +50,8 @@ TEST(RayShooter, LeavesOutWhatIsNotAccepted) {
   const Mesh mesh = make_solid(hollow_ball()).mesh;
   const RayShooter rays(mesh);
   const Vec3 d{0.6, 0, 0.8};
-  std::uint32_t first = RayShooter::kNone, vertex = 0;
-  for (; first == RayShooter::kNone; ++vertex) {
+  std::uint32_t first = kNone, vertex = 0;
+  for (; first == kNone; ++vertex) {
     first = rays.first_exit_below(vertex, d, [](std::uint32_t) { return true; });
   }
   --vertex;

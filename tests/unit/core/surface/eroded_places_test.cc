@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "core/base/none.h"
 #include "core/lattice/layer_index.h"
 #include "core/shapes/shapes.h"
 #include "core/test_solids.h"
@@ -32,7 +33,7 @@ void expect_row(const ErodedPlaces::Row& row, std::int64_t i, std::int64_t j, co
   for (std::int64_t k = -1; k <= grid.dims[2]; ++k) {
     SCOPED_TRACE(testing::Message() << "place " << i << ' ' << j << ' ' << k);
     const std::uint32_t rank = ranks.at(i, j, k);
-    const bool full = rank != LayerIndex::kOutside && erosion[rank] >= 1;
+    const bool full = rank != kNone && erosion[rank] >= 1;
     EXPECT_EQ(row.full[k], full ? 1 : 0);
     if (full) extent.take(k, k);
     seen.full += full;

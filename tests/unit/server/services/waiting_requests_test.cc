@@ -1,4 +1,6 @@
 // Requests that wait for an artefact to be computed.
+#include <chrono>
+
 #include "service_fixture.h"
 
 namespace affskel::server {
@@ -30,8 +32,21 @@ class WaitingRequests : public ServiceTest {
     std::thread thread;
   };
 
+  // Whether something comes true within a minute.
+  template <class Condition>
+  static bool comes_true(const Condition& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() >= end) return false;
+      std::this_thread::yield();
+    }
+    return true;
+  }
   void wait_for_waiting(std::size_t count) {
-    while (server_->room().waiting.used() != count) std::this_thread::yield();
+    ASSERT_TRUE(comes_true([&] { return server_->room().waiting.used() == count; })) << count;
+  }
+  void wait_for_requests(std::int64_t count) {
+    ASSERT_TRUE(comes_true([&] { return requests() == count; })) << count;
   }
   std::int64_t requests() { return server_->store().counts().requests; }
 };
@@ -47,7 +62,7 @@ TEST_F(WaitingRequests, AreBoundedAndStoredArtefactsAreNot) {
   EXPECT_NE(refused.status.error_message().find("2 requests"), std::string::npos)
       << refused.status.error_message();
   EXPECT_TRUE(fetch(*client_, mesh_request(id)).status.ok());
-  while (requests() != 2) std::this_thread::yield();
+  wait_for_requests(2);
 }
 
 TEST_F(WaitingRequests, LeaveWithTheLastWhoAsked) {
@@ -63,7 +78,7 @@ TEST_F(WaitingRequests, LeaveWithTheLastWhoAsked) {
     EXPECT_EQ(requests(), 1);
   }
   wait_for_waiting(0);
-  while (requests() > 0) std::this_thread::yield();
+  wait_for_requests(0);
 }
 
 TEST_F(WaitingRequests, ComingAndGoingLosesNone) {
@@ -75,14 +90,15 @@ TEST_F(WaitingRequests, ComingAndGoingLosesNone) {
     const Waiting second(connect(), id, 3);
     first.reset();
     wait_for_waiting(1);
-    while (requests() != 1) std::this_thread::yield();
+    wait_for_requests(1);
   }
   // A worker that took the request of a caller that is just going would lose it.
-  while (server_->room().waiting.used() > 0 || requests() > 0) std::this_thread::yield();
+  wait_for_waiting(0);
+  wait_for_requests(0);
   const Waiting last(connect(), id, 3);
   wait_for_waiting(1);
   const FakeWorker worker(connect(), "worker-a", 10, 20);
-  while (server_->room().waiting.used() > 0) std::this_thread::yield();
+  wait_for_waiting(0);
 }
 
 TEST_F(WaitingRequests, EndWhenTheServerCloses) {

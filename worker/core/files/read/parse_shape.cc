@@ -29,25 +29,44 @@ ShapeFile parse_off(std::string_view bytes) {
 
 using Parser = ShapeFile (*)(std::string_view);
 
-constexpr std::array<std::pair<std::string_view, Parser>, 11> kParsers = {{{".csv", parse_csv},
-                                                                           {".dat", parse_dat},
-                                                                           {".xyz", parse_xyz},
-                                                                           {".off", parse_off},
-                                                                           {".ply", parse_ply},
-                                                                           {".obj", parse_obj},
-                                                                           {".stl", parse_stl},
-                                                                           {".vtp", parse_vtp},
-                                                                           {".glb", parse_gltf},
-                                                                           {".gltf", parse_gltf},
-                                                                           {".3mf", parse_3mf}}};
+// What a kind of file holds.
+constexpr unsigned kPoints = 1, kSurface = 2, kCloud = 4;  // a cloud: points that may be those of a surface
+
+struct Kind {
+  std::string_view extension;
+  Parser parse;
+  unsigned holds;
+};
+
+constexpr std::array<Kind, 11> kKinds = {{{".xyz", parse_xyz, kPoints | kCloud},
+                                          {".csv", parse_csv, kPoints | kCloud},
+                                          {".dat", parse_dat, kPoints},
+                                          {".off", parse_off, kPoints | kSurface},
+                                          {".ply", parse_ply, kPoints | kSurface},
+                                          {".obj", parse_obj, kSurface},
+                                          {".stl", parse_stl, kSurface},
+                                          {".vtp", parse_vtp, kPoints | kSurface},
+                                          {".glb", parse_gltf, kSurface},
+                                          {".gltf", parse_gltf, kSurface},
+                                          {".3mf", parse_3mf, kSurface}}};
+
+std::vector<std::string_view> extensions_of(unsigned what) {
+  std::vector<std::string_view> extensions;
+  for (const Kind& kind : kKinds)
+    if ((kind.holds & what) != 0) extensions.push_back(kind.extension);
+  return extensions;
+}
+
+bool holds_mesh(std::string_view extension) {
+  const auto known = extensions_of(kSurface | kCloud);
+  return std::find(known.begin(), known.end(), extension) != known.end();
+}
 
 Parser parser_for(std::string_view extension) {
-  for (const auto& [name, parser] : kParsers) {
-    if (extension == name) return parser;
-  }
-  throw CoreError(CoreError::Code::kBadInput,
-                  "not a known kind of file; points are read from .csv .ply .off .xyz .vtp .dat, "
-                  "surfaces from .off .ply .obj .stl .vtp .glb .gltf .3mf");
+  for (const Kind& kind : kKinds)
+    if (extension == kind.extension) return kind.parse;
+  refuse("not a known kind of file; points are read from" + listed(extensions_of(kPoints)) +
+         ", surfaces from" + listed(mesh_extensions()));
 }
 
 // Whether a column of this name belongs to a normal: nx or nx_SUFFIX, or a component of an array normal, normals, Normal or
@@ -72,8 +91,7 @@ void check_finite(const ShapeFile& file) {
     if (!is_normal_column(column.name)) continue;
     for (std::size_t i = 0; i < column.values.size(); ++i) {
       if (!std::isfinite(column.values[i])) {
-        throw CoreError(CoreError::Code::kBadInput,
-                        "point " + std::to_string(i) + ": " + column.name + " is not finite");
+        refuse("point " + std::to_string(i) + ": " + column.name + " is not finite");
       }
     }
   }
@@ -123,30 +141,23 @@ void refuse_unknown_kinds(std::string_view bytes) {
   const bool binary = bytes.substr(0, kSeen).find('\0') != std::string_view::npos;
   if (!binary && may_be_off(bytes)) return;
   const std::string_view word = bytes.substr(0, bytes.find_first_of(" \t\r\n"));
-  throw CoreError(
-      CoreError::Code::kBadInput,
+  refuse(
       (binary
            ? "is binary, of no kind that is read"
            : "is of no kind that is read, and begins with " + base::quoted(std::string(word.substr(0, 30)))) +
-          "; read are OFF, PLY, OBJ, STL, VTP, glTF, 3MF, points as .xyz and .csv, of voxels NRRD, MetaImage and "
-          "NIfTI, and any of these packed by gzip or zstd");
+      "; read are OFF, PLY, OBJ, STL, VTP, glTF, 3MF, points as .xyz and .csv, of voxels NRRD, MetaImage and "
+      "NIfTI, and any of these packed by gzip or zstd");
 }
 
 // Refuses files that are known by their first bytes and cannot be read, with what they are and what to do.
 void refuse_other_kinds(std::string_view bytes) {
   if (is_binary_stl(bytes)) return;  // its header may say anything
   if (bytes.substr(0, kSeen).find("<COLLADA") != std::string_view::npos)
-    throw CoreError(CoreError::Code::kBadInput, "is COLLADA, and not read" + std::string(kExport));
+    refuse("is COLLADA, and not read" + std::string(kExport));
   for (const OtherKind& kind : kOthers) {
     if (bytes.starts_with(kind.begins))
-      throw CoreError(CoreError::Code::kBadInput,
-                      "is " + std::string(kind.is) + ", and not read" + std::string(kind.advice));
+      refuse("is " + std::string(kind.is) + ", and not read" + std::string(kind.advice));
   }
-}
-
-bool holds_mesh(std::string_view extension) {
-  const auto is_it = [&](const auto& known) { return known.first == extension; };
-  return extension != ".dat" && std::any_of(kParsers.begin(), kParsers.end(), is_it);
 }
 
 // The extension that the content stands for; empty where it says nothing, as of rows of numbers.
@@ -173,12 +184,10 @@ MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) 
     const std::string what = "is an image of " + std::to_string(image.size[0]) + " x " +
                              std::to_string(image.size[1]) + " x " + std::to_string(image.size[2]) +
                              " voxels";
-    throw CoreError(
-        CoreError::Code::kBadInput,
-        least == greatest
-            ? what + " that all have the value " + base::rounded(least, 6) + ": there is no surface"
-            : what + " with values from " + base::rounded(least, 6) + " to " + base::rounded(greatest, 6) +
-                  "; the isovalue, which they have at the surface, must be given");
+    refuse(least == greatest
+               ? what + " that all have the value " + base::rounded(least, 6) + ": there is no surface"
+               : what + " with values from " + base::rounded(least, 6) + " to " + base::rounded(greatest, 6) +
+                     "; the isovalue, which they have at the surface, must be given");
   }
   Isosurface surface = isosurface(image, {.isovalue = *options.isovalue, .context = options.context});
   MeshFile file{"voxels", false, {}, {}};
@@ -201,6 +210,29 @@ void check_counts(std::uint64_t points, std::uint64_t triangles) {
                                                  std::to_string(kMost) + " of either are not read");
 }
 
+std::vector<std::string_view> mesh_extensions() {
+  return extensions_of(kSurface);
+}
+
+std::vector<std::string_view> cloud_extensions() {
+  return extensions_of(kCloud);
+}
+
+std::vector<std::string_view> voxel_extensions(VoxelFiles which) {
+  if (which == VoxelFiles::kWhole) return {".nrrd", ".mha", ".nii"};
+  return {".nrrd", ".nhdr", ".mha", ".mhd", ".nii"};
+}
+
+std::vector<std::string_view> packed_extensions() {
+  return {".gz", ".zst"};
+}
+
+std::string listed(const std::vector<std::string_view>& extensions) {
+  std::string text;
+  for (const std::string_view extension : extensions) text += " " + std::string(extension);
+  return text;
+}
+
 ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
   refuse_other_kinds(bytes);
   const std::string_view told = told_extension(bytes);
@@ -214,9 +246,7 @@ ShapeFile parse_shape(std::string_view extension, std::string_view bytes) {
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, const MeshFileOptions& options) {
   if (bytes.empty() && extension != ".off") fail_at(0, "the file is empty");
   if (is_voxel_image(bytes)) return mesh_of_voxels(bytes, options);
-  if (options.isovalue)
-    throw CoreError(CoreError::Code::kBadInput,
-                    "is no image of voxels (NRRD, MetaImage, NIfTI-1), which an isovalue is for");
+  if (options.isovalue) refuse("is no image of voxels (NRRD, MetaImage, NIfTI-1), which an isovalue is for");
   refuse_other_kinds(bytes);
   const std::string_view told = told_extension(bytes);
   const std::string_view kind = !told.empty() ? told : holds_mesh(extension) ? extension : ".off";

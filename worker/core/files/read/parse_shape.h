@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/execution_context.h"
 #include "core/files/read/voxel_parsers.h"
@@ -53,5 +54,25 @@ struct MeshFile {
 ///   voxels, or one for anything else.
 MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes,
                          const MeshFileOptions& options = {});
+
+/// Extensions of the files that triangles are read from; the first is Geomview OFF's.
+std::vector<std::string_view> mesh_extensions();
+
+/// Those of points alone that may be those of a surface, see repair_mesh().
+std::vector<std::string_view> cloud_extensions();
+
+enum class VoxelFiles {
+  kAll,
+  kWhole,  ///< but .nhdr and .mhd, whose numbers are in another file
+};
+
+/// Those of images of voxels, at whose surface a mesh is made.
+std::vector<std::string_view> voxel_extensions(VoxelFiles which = VoxelFiles::kAll);
+
+/// What a compressed file has behind its own, see unpack().
+std::vector<std::string_view> packed_extensions();
+
+/// Each behind a blank.
+std::string listed(const std::vector<std::string_view>& extensions);
 
 }  // namespace affskel::core

@@ -20,7 +20,7 @@ constexpr std::size_t kUnpackedAtOnce = std::size_t{1} << 18;  // bytes that are
 constexpr int kMaxZstdWindow = 25;                             // binary logarithm of bytes
 
 [[noreturn]] void damaged(const char* how, const std::string& why) {
-  throw CoreError(CoreError::Code::kBadInput, std::string("compressed by ") + how + ", and damaged: " + why);
+  refuse(std::string("compressed by ") + how + ", and damaged: " + why);
 }
 
 // What has come out.
@@ -83,9 +83,8 @@ void decompress_frames(std::string_view bytes, Unpacked& out) {
     ZSTD_outBuffer made{piece.data(), piece.size(), 0};
     wanted = ZSTD_decompressStream(context.get(), &made, &in);
     if (ZSTD_getErrorCode(wanted) == ZSTD_error_frameParameter_windowTooLarge)
-      throw CoreError(CoreError::Code::kBadInput, "compressed by zstd with a window of more than " +
-                                                      std::to_string((1 << kMaxZstdWindow) >> 20) +
-                                                      " MiB, which is not read; compress it without --long");
+      refuse("compressed by zstd with a window of more than " + std::to_string((1 << kMaxZstdWindow) >> 20) +
+             " MiB, which is not read; compress it without --long");
     if (ZSTD_isError(wanted) != 0) damaged("zstd", ZSTD_getErrorName(wanted));
     out.add(piece, made.pos);
     full = made.pos == made.size && wanted != 0;

@@ -51,7 +51,8 @@ enum class XmlEnd {
 
 /// Reads an XML text by libexpat.  Memory is bounded whatever the bytes: a tag or comment has at most 1 MiB,
 /// elements are nested at most 100 deep and have with their attributes and namespaces' prefixes at most 1000 different
-/// names, those of namespaces at most 1024 bytes, and there are no entities but the predefined ones, since document types are refused.
+/// names, those of namespaces at most 1024 bytes.  Document types are refused, so that there are no entities but the
+/// predefined ones.
 /// @throws CoreError kBadInput with the line for what is not well-formed or beyond these bounds, and what the
 /// handler throws.
 XmlEnd read_xml(std::string_view bytes, XmlHandler& handler, XmlNames names = XmlNames::kAsWritten);
