@@ -97,7 +97,8 @@ TEST_F(LinkTest, LargeCallsMayTakeLonger) {
   link().complete({}, "small");
   link().complete({}, std::string(10 << 20, 'x'));
   const std::vector<FakeServer::Completion> completions = server_.completions();
-  EXPECT_LT(completions[0].time_left, std::chrono::minutes(3)) << "gRPC rounds up what it sends of a deadline";
+  EXPECT_LT(completions[0].time_left, std::chrono::minutes(3))
+      << "gRPC rounds up what it sends of a deadline";
   EXPECT_GT(completions[1].time_left, std::chrono::hours(2)) << "at 1 KiB a second";
 }
 
