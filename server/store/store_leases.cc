@@ -158,8 +158,8 @@ bool is_cancelled(const TaskRow& task, const JobRow& job) {
   return !task.on_request && (!job.active() || job.cancel_requested);
 }
 
-/// Renews a lease of a worker that asks for more, or takes an input.  That it has ended, or its job was cancelled, the worker
-/// hears when it speaks of that lease.
+/// Renews a lease of a worker that asks for more, or takes an input.  That it has ended, or its job was cancelled, the
+/// worker hears when it speaks of that lease.
 void renew_held(Tx& tx, const std::string& token) {
   std::optional<TaskRow> task = find_task_of_token(tx.db, token);
   if (!task || task->state == "done" || is_cancelled(*task, get_job(tx.db, task->job_id))) return;

@@ -32,8 +32,8 @@ struct CurveSkeleton : SheetMesh {
   std::vector<double> share;  ///< per vertex: of all sample points, those of `nearest`; adds up to 1
   std::vector<double> radius;  ///< per vertex: see limb_radii(), mesh units
   std::vector<double> beyond;  ///< per vertex: share of all sample points; see volume_beyond()
-  /// Per sample point: the vertex that it belongs to, see realms(), and limb_tubes() where limbs meet; of a fragment, where no
-  /// way leads, the nearest.
+  /// Per sample point: the vertex that it belongs to, see realms(), and limb_tubes() where limbs meet; of a fragment,
+  /// where no way leads, the nearest.
   std::vector<std::uint32_t> nearest;
   std::uint32_t branches = 0;  ///< between ends and places where lines meet; a loop without one counts once
   std::uint32_t ends = 0;      ///< of one branch alone
