@@ -69,8 +69,8 @@ class Collapsing {
 
   /// Collapses as far as it goes, beginning with what is free now.
   /// @param rules  time(coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time,
-  ///   those of one time in waves, each what the one before has freed, and of cells with one coface the one of
-  ///   the least level(cell), so that with levels that know no order of axes a mirror image is collapsed to the
+  ///   those of one time in waves, each what the one before has freed, and of cells with one coface the first by
+  ///   level(cell) and rank_of(), so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
   ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was
   ///   removed.  May have next_cut(): after a wave a cell without cofaces that is taken out by itself, or nothing.
@@ -148,10 +148,11 @@ class Collapsing {
       });
       std::sort(rivals.begin(), rivals.end());
       for (auto first = rivals.begin(), last = first; first != rivals.end(); first = last) {
-        std::pair lowest(rules.level(first->second), first->second);
+        const auto rank = [&](Cell cell) { return rank_of(complex_, rules.level(cell), cell); };
+        CellRank lowest = rank(first->second);
         for (last = first + 1; last != rivals.end() && last->first == first->first; ++last)
-          lowest = std::min(lowest, std::pair(rules.level(last->second), last->second));
-        remove(lowest.second, first->first, now, rules);
+          lowest = std::min(lowest, rank(last->second));
+        remove(lowest.cell, first->first, now, rules);
       }
       if constexpr (requires { rules.next_cut(); }) take_cuts(now, rules);
     }

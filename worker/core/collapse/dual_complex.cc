@@ -1,6 +1,7 @@
 #include "core/collapse/dual_complex.h"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 
 #include "core/base/disjoint_sets.h"
@@ -21,6 +22,12 @@ DualComplex::DualComplex(const Lattice& lattice)
     neighbour_[4 * std::size_t{low} + 2 * axis + 1] = high;
     neighbour_[4 * std::size_t{high} + 2 * axis] = low;
   });
+  for (const LatticeRun& run : lattice.axis[2].runs) {
+    runs_.push_back({run.first, run.start});
+    const std::uint64_t length = run.length;
+    for (std::size_t axis = 0; axis < 3; ++axis) sum_[axis] += length * run.start[axis];
+    sum_[2] += length * (length - 1) / 2;
+  }
   const auto up = [&](std::uint32_t cube, std::size_t axis) {
     return cube == kNone ? kNone : neighbour(cube, axis, 2);
   };
@@ -46,6 +53,29 @@ DualComplex::Cell DualComplex::own_name(std::uint32_t cube, std::uint32_t place)
   Cell own = name(cube, place);
   for (const Star::Member& member : star(cube, place)) own = std::min(own, name(member.cube, member.place));
   return own;
+}
+
+std::optional<DualComplex::Cell> DualComplex::next_vertex(Cell vertex, std::size_t axis, bool upwards) const {
+  for (const auto& [cube, place] : star(vertex)) {
+    if (digit(place, axis) != (upwards ? 0U : 2U)) continue;
+    return cell(cube, upwards ? place + 2 * kWeight[axis] : place - 2 * kWeight[axis]);
+  }
+  return std::nullopt;
+}
+
+double DualComplex::off_centre(Cell of) const {
+  const std::uint32_t cube = cube_of(of), place = place_of(of);
+  const Run& run = *std::prev(std::ranges::upper_bound(runs_, cube, {}, &Run::first));
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Twice the way times the number of cubes is a whole number.
+    const std::int64_t at =
+        2 * (std::int64_t{run.start[axis]} + (axis == 2 ? cube - run.first : 0)) + digit(place, axis) - 1;
+    const auto way =
+        static_cast<double>(at * cubes() - 2 * static_cast<std::int64_t>(sum_[axis])) / (2.0 * cubes());
+    sum += way * way;
+  }
+  return sum;
 }
 
 DualComplex::Star DualComplex::star(std::uint32_t cube, std::uint32_t place) const {

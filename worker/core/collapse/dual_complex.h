@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -87,6 +90,12 @@ class DualComplex {
     for_each_face(edge, [&](Cell vertex) { found[n++] = vertex; });
     return found;
   }
+
+  /// The vertex at the other end of an edge from a vertex along an axis, if it has one.
+  std::optional<Cell> next_vertex(Cell vertex, std::size_t axis, bool upwards) const;
+
+  /// The square of a cell's distance from the centre of all cubes, spacings; of mirror images to the bit the same.
+  double off_centre(Cell of) const;
 
   /// The cubes about a cell, and its place in each.
   struct Star {
@@ -219,6 +228,14 @@ class DualComplex {
   Star star(std::uint32_t cube, std::uint32_t place) const;
   Cofaces cofaces(const Star& star) const;
 
+  // Cubes one after another along axis 2.
+  struct Run {
+    std::uint32_t first = 0;
+    std::array<std::uint32_t, 3> start{};
+  };
+
+  std::vector<Run> runs_;
+  std::array<std::uint64_t, 3> sum_{};    // of all cubes' places
   std::vector<std::uint32_t> neighbour_;  // four per cube: axis 0 lower, upper, axis 1 lower, upper
   std::vector<std::uint8_t>
       along_;  // per cube: whether the one before (bit 0) and after (2) are glued, along axis 2
@@ -260,6 +277,20 @@ double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value&
     }
   }
   return sum / static_cast<double>(star.count);
+}
+
+/// An order of cells that mirror images share: by a level, and of those that have one up to rounding, as the two faces
+/// of what is one cube thick, the farthest from the middle of the complex first.
+struct CellRank {
+  double level = 0;
+  double nearness = 0;
+  DualComplex::Cell cell = 0;
+  auto operator<=>(const CellRank&) const = default;
+};
+
+/// @param level below 2^14.
+inline CellRank rank_of(const DualComplex& complex, double level, DualComplex::Cell cell) {
+  return {std::nearbyint(level * 0x1p38), -complex.off_centre(cell), cell};
 }
 
 /// A value for each cell of one dimension, lines or points: in arrays where its name is the usual one.

@@ -197,7 +197,7 @@ class Thinning {
   // Of a flat end, whose corners lie far from its middle, the tip is in the middle.
   Cell tip_of(const Line& line) const {
     const Cell corner = line.tip.vertex;
-    if (line.lines == 0 || DualComplex::place_of(line.tip.root) != DualComplex::kUpperVertex) return corner;
+    if (line.lines == 0) return corner;
     Vec3 way, aside;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double middle = static_cast<double>(line.tip_place[axis] + line.others[axis]) / (1 + line.lines);
@@ -213,32 +213,32 @@ class Thinning {
   std::optional<Cell> middle_of_end(Cell root, const Vec3& way) const {
     const double length = norm(way);
     Cell best = root;
-    std::uint32_t cube = DualComplex::cube_of(root);
+    std::optional<Cell> here = root;
     std::array<int, 3> at{};
     double most = 0;
     for (double gone = 0; length > 0; gone += kWalk) {
-      cube = stepped(cube, gone / length * way, at);
-      if (cube == DualComplex::kNone) {
+      here = stepped(*here, gone / length * way, at);
+      if (!here) {
         if (gone <= length) return std::nullopt;
         break;
       }
-      const Cell here = complex_.cell(cube, DualComplex::kUpperVertex);
-      const double value = radius_at(here) + kSteep * gone;
+      const double value = radius_at(*here) + kSteep * gone;
       if (gone > length && value < most) break;
       most = std::max(most, value);
-      best = here;
+      best = *here;
     }
     return best;
   }
 
-  // The cube at a place, spacings from where `at` counts from, or none.
-  std::uint32_t stepped(std::uint32_t cube, const Vec3& place, std::array<int, 3>& at) const {
+  // The vertex at a place, spacings from where `at` counts from, or none.
+  std::optional<Cell> stepped(Cell vertex, const Vec3& place, std::array<int, 3>& at) const {
+    std::optional<Cell> here = vertex;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int to = static_cast<int>(std::lround(place[axis]));
-      for (; at[axis] != to && cube != DualComplex::kNone; at[axis] += at[axis] < to ? 1 : -1)
-        cube = complex_.neighbour(cube, axis, at[axis] < to ? 2 : 0);
+      for (; at[axis] != to && here; at[axis] += at[axis] < to ? 1 : -1)
+        here = complex_.next_vertex(*here, axis, at[axis] < to);
     }
-    return cube;
+    return here;
   }
 
   // Of several lines that meet at a vertex the last goes on; of those that come at once the one from the highest.
@@ -256,8 +256,10 @@ class Thinning {
     finish(number);
   }
   bool is_later(const Line& line, const Line& than) const {
-    const auto key = [&](const Line& of) { return std::pair(level(of.from) + level(of.edge), of.from); };
-    return line.time > than.time || key(line) > key(than);
+    const auto rank = [&](const Line& of) {
+      return rank_of(complex_, level(of.from) + level(of.edge), of.from);
+    };
+    return line.time > than.time || rank(line) > rank(than);
   }
 
   double radius_at(Cell vertex) const { return radius_about(complex_, depth_, vertex); }

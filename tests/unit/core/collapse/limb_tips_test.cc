@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/collapse/lattice_solids.h"
@@ -31,7 +34,12 @@ std::vector<Vec3> tips_of(const Mesh& mesh, double spacing, const Vec3& uphill =
   for (const LimbTip& tip : limb_tips(complex, depth, height, 1).tips) {
     const std::uint32_t cube = DualComplex::cube_of(tip.vertex);
     const LatticePlace at = lattice_places(solid.lattice, std::vector<std::uint32_t>{cube})[0];
-    result.push_back(places.at(at[0], at[1], at[2]));
+    Vec3 place = places.at(at[0], at[1], at[2]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t digit = DualComplex::digit(DualComplex::place_of(tip.vertex), axis);
+      place = place + 0.5 * (static_cast<double>(digit) - 1) * places.axes()[axis];
+    }
+    result.push_back(place);
   }
   return result;
 }
@@ -54,6 +62,25 @@ TEST(LimbTips, AreNoneOfWhatIsNotLongerThanThick) {
     EXPECT_TRUE(tips_of(shaken(make_box(3, 3, 0.6), 0, 5), spacing).empty());
     EXPECT_TRUE(tips_of(make_torus(2, 0.7, 1024), spacing).empty());
   }
+}
+
+// Where a solid is one cube thick, nothing but its place tells one face of a cube from the other.
+TEST(LimbTips, OfMirrorImagesAreMirrorImages) {
+  int all = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Mesh right = moved(random_solid(seed), {7, 0, 0});
+    Mesh left = right;
+    for (Vec3& place : left.points) place.x = -place.x;
+    for (Triangle& corners : left.triangles) std::swap(corners[0], corners[1]);
+    std::array<std::vector<std::array<double, 3>>, 2> sides;
+    for (const Vec3& tip : tips_of(joined(left, right), 0.31, {0, 0.13, 0.29}))
+      sides[tip.x > 0].push_back(
+          {std::round(1e6 * std::abs(tip.x)), std::round(1e6 * tip.y), std::round(1e6 * tip.z)});
+    for (auto& side : sides) std::ranges::sort(side);
+    EXPECT_EQ(sides[0], sides[1]) << seed;
+    all += static_cast<int>(sides[0].size());
+  }
+  EXPECT_GT(all, 20);
 }
 
 // A stick with a ring at one end, which has no tip while it is a loop.
