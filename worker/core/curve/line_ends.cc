@@ -10,7 +10,9 @@ namespace {
 constexpr double kSteep = 0.5;   // see draw_end()
 constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
 
-constexpr double kCorner = 2;     // radii of a section, from an end: what may lead to a corner of it
+// Radii of a section, from an end: what may lead to a corner of it, and what mostly does, if the line is short: of its
+// way to the joint at most that share.
+constexpr double kCorner = 2, kNearCorner = 1.5, kInner = 0.6;
 constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
 constexpr double kWider = 1.1;    // times: no bar's end, but a head or a foot
 
@@ -61,12 +63,16 @@ class DrawEnd {
   Start start() const {
     const std::size_t first =
         first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
+    const std::size_t straight = in_.line.size() - std::min(in_.in_joint + 1, in_.line.size());
     const std::size_t inner = first_away([&](std::size_t n, double way) {
-      return n < first || way < kCorner * section(at(n), outward_at(n)).radius;
+      const double radius = section(at(n), outward_at(n)).radius;
+      return n < first || way < kNearCorner * radius ||
+             (way < kCorner * radius && static_cast<double>(n) < kInner * static_cast<double>(straight));
     });
     const Start round{first, outward_at(first)};
-    if (2 * inner + in_.in_joint >= in_.line.size()) return round;
-    const double stretch = kCorner * section(at(inner), outward_at(inner)).radius;
+    if (inner >= straight) return round;
+    const double stretch =
+        std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight) - at(inner)));
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
     if (dot(along, unit(at(0) - at(first))) > kTurned) return round;
     const double widest = kWider * section(at(inner), along).radius;

@@ -15,12 +15,12 @@ namespace {
 
 constexpr double kSpacing = 0.1;
 
-// A line down the axis from z = 10, whose first vertices turn to a place; drawn again.
-std::vector<Vec3> drawn(const Mesh& mesh, double from, const Vec3& to) {
+// A line down the axis from z = 10 to where it ends, whose first vertices turn to a place; drawn again.
+std::vector<Vec3> drawn(const Mesh& mesh, double from, const Vec3& to, double low = 2) {
   std::vector<Vec3> places;
   const double turn = from - 0.9;
   for (double part = 0; part < 1; part += 0.05) places.push_back(to + part * (Vec3{0, 0, turn} - to));
-  for (double z = turn; z > 2; z -= kSpacing) places.push_back({0, 0, z});
+  for (double z = turn; z > low; z -= kSpacing) places.push_back({0, 0, z});
   std::vector<std::uint32_t> line(places.size());
   std::iota(line.begin(), line.end(), 0U);
   const LimbSections sections(mesh);
@@ -46,6 +46,13 @@ TEST(LineEnds, ALineThatTurnsToACornerGoesStraightOn) {
   for (const Vec3& place : drawn(bar(), 10, {0.9, 0.9, 9.9}))
     EXPECT_LT(std::hypot(place.x, place.y), 1e-6) << place.z;
   EXPECT_NEAR(drawn(bar(), 10, {0.9, 0.9, 9.9})[0].z, 10, kSpacing);
+}
+
+// Of three radii, as an arm of a T that is no longer than wide.
+TEST(LineEnds, AShortLineThatTurnsToACornerGoesStraightOn) {
+  for (const double length : {3.4, 4.2})
+    for (const Vec3& place : drawn(bar(), 10, {0.9, 0.9, 9.9}, 10 - length))
+      EXPECT_LT(std::hypot(place.x, place.y), 1e-6) << length << ' ' << place.z;
 }
 
 TEST(LineEnds, OfARoundLimbIsTheCentreOfItsEnd) {
