@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -12,6 +14,7 @@
 #include "client/files/read/input_file.h"
 #include "client/files/write/shape_writer.h"
 #include "client/text/key_line.h"
+#include "core/solid/solid.h"
 
 namespace affskel::client {
 namespace {
@@ -21,10 +24,18 @@ struct RepairOptions {
   core::MeshFileOptions reading;
 };
 
-std::string steps_text(const Repair& done) {
+// What is wrong with a solid and stays so.
+std::vector<core::MeshNote> warnings_of(const core::Mesh& mesh) {
+  std::vector<core::MeshNote> notes = core::make_solid(mesh).notes;
+  std::erase_if(
+      notes, [](const core::MeshNote& note) { return note.severity != core::MeshNote::Severity::kWarning; });
+  return notes;
+}
+
+std::string steps_text(const Repair& done, bool is_sound) {
   std::string text;
   for (const core::RepairStep& step : done.steps) text += key_line(step.code, step.message);
-  if (done.steps.empty()) text += key_line("sound", "yes");
+  if (done.steps.empty() && is_sound) text += key_line("sound", "yes");
   text += key_line("triangles", std::to_string(done.mesh.triangles.size()));
   return text + key_line("volume", base::plain(done.volume, base::kMeasureDigits));
 }
@@ -38,6 +49,8 @@ void run_repair(Context& context, const RepairOptions& options) {
   });
   const Repair done = context.within_budget(Budget::Work::kRepair, options.file,
                                             [&] { return repaired(context, mesh, options.file, choice); });
+  const std::vector<core::MeshNote> warnings =
+      context.within_budget(Budget::Work::kRepair, options.file, [&] { return warnings_of(done.mesh); });
   ShapeFile shape;
   shape.off.mesh = done.mesh;
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");
@@ -45,16 +58,22 @@ void run_repair(Context& context, const RepairOptions& options) {
   write_into(file, [&](const WriteBytes& write) { write_shape(format, shape, {"repaired"}, write); });
   file.commit();
 
-  const std::string text = steps_text(done);
+  const std::string text = steps_text(done, warnings.empty());
   if (destination.is_stdout()) {
     console.note(text.substr(0, text.size() - 1));
   } else {
     console.result(text);
     console.note("wrote " + destination.name());
   }
+  nlohmann::ordered_json warned = nlohmann::ordered_json::array();
+  for (const core::MeshNote& warning : warnings) {
+    console.warning(warning.message);
+    warned.push_back({{"code", warning.code}, {"message", warning.message}});
+  }
   console.document({{"file", options.output},
                     {"repair", options.how},
                     {"steps", steps_json(done.steps)},
+                    {"warnings", std::move(warned)},
                     {"filled_share", done.filled_share},
                     {"points", done.mesh.points.size()},
                     {"triangles", done.mesh.triangles.size()},

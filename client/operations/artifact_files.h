@@ -18,7 +18,8 @@ Fetched fetch_curve(Session& session, const FetchRequest& request);
 /// The solid's surface with its thickness and part per triangle.
 Fetched fetch_thickness(Session& session, const FetchRequest& request);
 Fetched fetch_eroded(Session& session, const FetchRequest& request);
-/// As OFF the submitted bytes, also without an extension; in the other surface_formats the same surface.
+/// As OFF the submitted bytes, also without an extension; in the other surface_formats the same surface,
+/// facing outward.
 Fetched fetch_submitted_mesh(Session& session, const FetchRequest& request);
 Fetched fetch_source_mesh(Session& session, const FetchRequest& request);
 

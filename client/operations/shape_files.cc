@@ -14,6 +14,8 @@
 #include "client/operations/shape_output.h"
 #include "client/text/job_facts.h"
 #include "client/text/skeleton_text.h"
+#include "core/base/error.h"
+#include "core/solid/solid.h"
 #include "wire/params.h"
 
 namespace affskel::client {
@@ -94,7 +96,15 @@ Fetched fetch_eroded_solid(Session& session, const FetchRequest& request) {
   return fetched;
 }
 
-// A mesh in another format than the one in which it was submitted.
+// What bounds no solid, so that its job failed, stays as it is.
+void turn_outward(core::Mesh& mesh) {
+  try {
+    core::turn_as_in(core::make_solid(mesh, {.check_self_intersections = false}), mesh);
+  } catch (const core::CoreError&) {
+  }
+}
+
+// A mesh in another format than the one in which it was submitted; that of a solid faces outward.
 Fetched convert_mesh(Session& session, const FetchRequest& request, v1::ArtifactKind kind) {
   const FileFormat format = choose_format(request.destination, surface_formats(), "mesh");
   base::AtomicFile out(request.destination.file);
@@ -102,6 +112,7 @@ Fetched convert_mesh(Session& session, const FetchRequest& request, v1::Artifact
   const std::string bytes = session.fetch_bytes(request_for(request.job, kind), &header);
   ShapeFile shape;
   shape.off = parse_mesh(bytes, "mesh of job " + header.job().id());
+  if (kind == v1::ARTIFACT_KIND_MESH) turn_outward(shape.off.mesh);
   const std::vector<std::string> comments = comment_lines(job_facts(header.job(), request.artifact));
   write_into(out, [&](const WriteBytes& write) { write_surface(format, shape, comments, write); });
   out.commit();

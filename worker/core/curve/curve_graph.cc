@@ -276,6 +276,15 @@ class GraphOfCurve {
     return other == at.end() ? kNone : *other;
   }
 
+  // The heaviest other branch at an end; of those as heavy the first.
+  std::uint32_t heaviest_beside(std::uint32_t which, std::uint32_t vertex) const {
+    std::uint32_t heaviest = kNone;
+    for (const std::uint32_t b : at_vertex_[vertex])
+      if (b != which && (heaviest == kNone || graph_.branches[b].share > graph_.branches[heaviest].share))
+        heaviest = b;
+    return heaviest;
+  }
+
   // From the heavier of its two joints.
   void turn_link(std::uint32_t which) {
     CurveBranch& branch = graph_.branches[which];
@@ -288,7 +297,7 @@ class GraphOfCurve {
   void measure_angle(std::uint32_t which) {
     CurveBranch& branch = graph_.branches[which];
     branch.angle = std::numeric_limits<double>::quiet_NaN();
-    const std::uint32_t other = beside(which, branch.vertices.front());
+    const std::uint32_t other = heaviest_beside(which, branch.vertices.front());
     if (other == kNone || branch.kind == BranchKind::kPoint) return;
     const CurveBranch& on = graph_.branches[other];
     const Vec3 way = direction(branch, false), rest = direction(on, on.from != branch.from);

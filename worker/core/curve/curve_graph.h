@@ -24,7 +24,7 @@ struct CurveBranch {
   double share = 0;                     ///< see CurveGraph::part; 0 when no vertex is its own
   /// Of its own vertices, see CurveGraph::part, without joints, or of all where it has none; the mean along the line.
   double mean_radius = 0, least_radius = 0, greatest_radius = 0;
-  /// Degrees, at `from`, to the first other branch there: 180 goes straight on; NaN without another, and of a point.
+  /// Degrees, at `from`, to the heaviest other branch there: 180 goes straight on; NaN without another, and of a point.
   double angle = 0;
 };
 

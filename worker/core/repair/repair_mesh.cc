@@ -49,7 +49,6 @@ class Mending {
     orient(mesh);
     fill();
     drop_flaps();
-    turn_outward();
   }
 
   /// @throws CoreError kBadInput for an open sheet, but with lengths of one's own: filled, it would bound nothing, and
@@ -166,13 +165,6 @@ class Mending {
     tell("flaps", flaps, "part", " without volume left out");
   }
 
-  // All of it, when it encloses less than nothing: what lies in what is for make_solid.
-  void turn_outward() {
-    if (!result_.left.empty() || !(enclosed_volume(result_.mesh) < 0)) return;
-    for (Triangle& t : result_.mesh.triangles) std::swap(t[1], t[2]);
-    tell("turned-out", 1, "the surface was inside out and turned");
-  }
-
   const RepairOptions& options_;
   double longest_ = 0;
   bool is_sheet_ = false;  // all parts were open, and together they enclose nothing
@@ -243,11 +235,15 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   return result;
 }
 
-// What is whole may still be none: two triangles on each other, say.
-void take_volume(RepairedMesh& result, const RepairOptions& options) {
-  const SolidOptions solid{.check_self_intersections = false, .context = options.context};
+// Turns its surfaces as those of a solid.  What is whole may still be none: two triangles on each other, say.
+void face_outward(RepairedMesh& result, const RepairOptions& options) {
   try {
-    result.volume = make_solid(result.mesh, solid).volume;
+    const Solid solid =
+        make_solid(result.mesh, {.check_self_intersections = false, .context = options.context});
+    result.volume = solid.volume;
+    if (turn_as_in(solid, result.mesh))
+      for (const MeshNote& note : solid.notes)
+        if (note.code.starts_with("turned-")) result.steps.push_back({note.code, 1, note.message});
   } catch (const CoreError& error) {
     if (error.code() != CoreError::Code::kBadInput) throw;
     result.left = error.what();
@@ -290,7 +286,7 @@ RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   } else {
     result = Mending(mesh, options).result(options);
   }
-  if (result.left.empty()) take_volume(result, options);
+  if (result.left.empty()) face_outward(result, options);
   return result;
 }
 

@@ -28,7 +28,7 @@ struct RepairOptions {
 struct RepairStep {
   /// Stable: "welded-points", "joined-points", "unused-points", "degenerate-triangles", "repeated-triangles",
   /// "t-junctions", "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "bent-fillings", "flaps",
-  /// "turned-out", "lone-points", "surfaced", "wrapped".
+  /// "turned-out", "turned-cavities", "lone-points", "surfaced", "wrapped".
   std::string code;
   std::uint64_t count = 0;
   std::string message;  ///< with counts, lengths and places

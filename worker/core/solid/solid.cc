@@ -370,4 +370,16 @@ Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vecto
   return SolidBuilder(mesh, std::move(all), options, vertex_line, triangle_line).run();
 }
 
+bool turn_as_in(const Solid& solid, Mesh& mesh) {
+  if (solid.mesh.triangles.size() != mesh.triangles.size()) return false;
+  const auto normal = [](const Mesh& of, std::size_t t) {
+    const auto [a, b, c] = of.triangles[t];
+    return cross(of.points[b] - of.points[a], of.points[c] - of.points[a]);
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (dot(normal(solid.mesh, t), normal(mesh, t)) < 0)
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  return true;
+}
+
 }  // namespace affskel::core

@@ -72,4 +72,9 @@ Solid make_solid(const Mesh& mesh, const SolidOptions& options = {},
                  const std::vector<std::uint32_t>& vertex_line = {},
                  const std::vector<std::uint32_t>& triangle_line = {});
 
+/// Turns the triangles of a mesh as its solid has them: those of solids outward, of cavities inward.
+/// @param solid make_solid(mesh).
+/// @return false, and nothing is turned, where the solid has not all of the mesh's triangles.
+bool turn_as_in(const Solid& solid, Mesh& mesh);
+
 }  // namespace affskel::core

@@ -298,6 +298,20 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   const Outcome sound = run({"repair", dir_ / "cube.off", "-o", dir_ / "same.ply"});
   EXPECT_NE(sound.out.find("sound:"), std::string::npos) << sound.out;
 
+  // Two cubes that overlap: told, not mended.
+  core::Mesh two = core::make_box(2000, 2000, 2000, 2);
+  const auto second = static_cast<std::uint32_t>(two.points.size());
+  const core::Mesh one = two;
+  for (const core::Vec3& place : one.points) two.points.push_back(place + core::Vec3{990, 970, 1030});
+  for (const core::Triangle& t : one.triangles)
+    two.triangles.push_back({second + t[0], second + t[1], second + t[2]});
+  tests::write_file(dir_ / "two.off", core::write_off(two));
+  const Outcome crossing = run({"--json", "repair", dir_ / "two.off", "-o", dir_ / "two.ply"});
+  EXPECT_EQ(crossing.exit_code, 0);
+  EXPECT_EQ(json::parse(crossing.out).at("warnings").at(0).at("code"), "self-intersecting");
+  EXPECT_NE(crossing.err.find("warning"), std::string::npos) << crossing.err;
+  EXPECT_EQ(run({"repair", dir_ / "two.off", "-o", dir_ / "two.ply"}).out.find("sound:"), std::string::npos);
+
   const Outcome piped =
       run({"repair", dir_ / "open.off", "--repair", "fill=1e6", "-o", "-", "--format", "off"});
   EXPECT_EQ(piped.exit_code, 0);

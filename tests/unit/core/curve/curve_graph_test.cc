@@ -170,6 +170,20 @@ TEST(CurveGraph, AnglesAreToTheFirstOtherBranch) {
   EXPECT_NEAR(graph.branches[5].angle, 180, 1e-9) << "the neck goes straight on";
 }
 
+// By a little, so that their numbers are those of their places.
+TEST(CurveGraph, AnglesAreToTheHeaviestBranchWhereverItIs) {
+  for (const double side : {-1.0, 1.0}) {
+    Lines lines;
+    const std::uint32_t joint = lines.begin({0, 0, 0});
+    lines.go(joint, {side, 0, 0}, 100);
+    lines.go(joint, {-side, 0, 0}, 60);
+    lines.go(joint, {0, 0, side}, 103);
+    const CurveGraph graph = lines.graph();
+    ASSERT_EQ(graph.branches.size(), 3U);
+    EXPECT_NEAR(graph.branches[2].angle, 90, 1e-9) << side;
+  }
+}
+
 // Near a joint lines bend into each other; the angle is that of what follows.
 TEST(CurveGraph, AnglesAreThoseBeyondTheJoint) {
   Lines lines;

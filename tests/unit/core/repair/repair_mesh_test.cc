@@ -16,6 +16,7 @@
 #include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
 #include "core/stopping_context.h"
+#include "core/test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -317,6 +318,20 @@ TEST(RepairMesh, TurnsWhatDisagrees) {
   ASSERT_NE(step(repaired, "turned-triangles"), nullptr);
   EXPECT_EQ(step(repaired, "turned-triangles")->count, (body.triangles.size() + 2) / 3);
   EXPECT_NEAR(volume_of(repaired.mesh), volume, 1e-9 * volume);
+}
+
+// Surface by surface: of two balls one, and the wall of a cavity.
+TEST(RepairMesh, WhatItWritesEnclosesWhatItTells) {
+  const Mesh ball = make_sphere(1, 80), large = make_sphere(3, 320);
+  const double small_volume = enclosed_volume(ball), large_volume = enclosed_volume(large);
+  const RepairedMesh two = repair_mesh(joined(moved(ball, {9, 0, 0}), reversed(large)));
+  EXPECT_NE(step(two, "turned-out"), nullptr);
+  EXPECT_NEAR(enclosed_volume(two.mesh), small_volume + large_volume, 1e-9);
+  const RepairedMesh hollow = repair_mesh(joined(large, ball));
+  EXPECT_NE(step(hollow, "turned-cavities"), nullptr);
+  EXPECT_NEAR(enclosed_volume(hollow.mesh), large_volume - small_volume, 1e-9);
+  EXPECT_NEAR(enclosed_volume(hollow.mesh), hollow.volume, 1e-9);
+  EXPECT_TRUE(repair_mesh(joined(large, reversed(ball))).steps.empty());
 }
 
 TEST(RepairMesh, WrapsBesideTrianglesWithoutArea) {
