@@ -111,20 +111,23 @@ class Planner {
   };
 
   std::vector<Old> oldest(const std::vector<std::string>& owners, bool bare) {
-    std::vector<Old> jobs;
+    std::vector<Old> found;
     for (const std::string& owner : owners) {
-      Statement row = db_.query(
-          "SELECT j.id, j.finished_ms, iif(?2, m.bytes, e.bytes) FROM jobs j"
-          " JOIN erosions e ON e.id = j.erosion_id"
-          " JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.owner = ?1"
-          " AND (j.removed_ms > 0 OR e.core_version IS NULL) = ?2"
-          " AND j.pinned = 0 AND j.expires_ms = 0 AND j.finished_ms > 0 ORDER BY j.finished_ms LIMIT ?3",
-          owner, bare, most_);
-      while (row.step()) jobs.push_back({row.text(0), row.integer(1), row.integer(2)});
+      for (const Jobs jobs : kInOrder) {
+        if (jobs.bare != bare) continue;
+        Statement row = db_.query(
+            "SELECT j.id, j.finished_ms, iif(?3, m.bytes, e.bytes) FROM jobs j"
+            " CROSS JOIN erosions e ON e.id = j.erosion_id"
+            " CROSS JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.owner = ?1 AND (j.removed_ms > 0) = ?2"
+            " AND (?2 OR (e.core_version IS NULL) = ?3) AND j.pinned = 0 AND j.expires_ms = 0"
+            " AND j.finished_ms > 0 ORDER BY j.finished_ms LIMIT ?4",
+            owner, jobs.removed, bare, most_);
+        while (row.step()) found.push_back({row.text(0), row.integer(1), row.integer(2)});
+      }
     }
-    std::stable_sort(jobs.begin(), jobs.end(),
+    std::stable_sort(found.begin(), found.end(),
                      [](const Old& a, const Old& b) { return a.finished_ms < b.finished_ms; });
-    return jobs;
+    return found;
   }
 
   void by_bytes(const std::vector<std::string>& owners, std::int64_t excess, const char* rule) {
