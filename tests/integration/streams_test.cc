@@ -61,7 +61,7 @@ TEST_F(StreamsTest, AServersCommandsDoNothingWithAClosedStream) {
 }
 
 TEST_F(StreamsTest, OutputThatFindsNoRoomIsALimit) {
-  for (const std::string& program : {AFFSKEL_SERVER_BINARY, AFFSKEL_WORKER_BINARY, AFFSKEL_CLIENT_BINARY}) {
+  for (const std::string program : {AFFSKEL_SERVER_BINARY, AFFSKEL_WORKER_BINARY, AFFSKEL_CLIENT_BINARY}) {
     for (const char* option : {" --help", " --version"}) {
       expect_failure("'" + program + "'" + option + " >/dev/full", 8,
                      "cannot write to standard output: No space left on device");
