@@ -6,6 +6,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <sstream>
 #include <stdexcept>
 #include <stop_token>
 #include <system_error>
@@ -14,6 +16,7 @@
 #include "base/end_limit.h"
 #include "base/exit_code.h"
 #include "base/logfmt.h"
+#include "base/standard_streams.h"
 #include "base/stop_signals.h"
 #include "compute.h"
 #include "core/base/error.h"
@@ -24,6 +27,9 @@
 #include "wire/words.h"
 
 namespace {
+
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const at_first)(int, char**, char**) = affskel::base::keep_standard_streams;
 
 using affskel::core::CoreError;
 
@@ -246,7 +252,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (!*compute && flags.loop.server.empty()) throw CLI::RequiredError("--server or the command compute");
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::kUsage);
+    std::ostringstream help;
+    const bool asked_for = app.exit(error, help, std::cerr) == 0;
+    return static_cast<int>(asked_for ? affskel::base::show_help("affskel-worker", help.str())
+                                      : ExitCode::kUsage);
   }
   if (*compute) return static_cast<int>(run_compute(flags.compute));
   const auto logger = spdlog::stderr_logger_mt("affskel-worker");

@@ -1,15 +1,11 @@
 #include "client/cli/console.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <system_error>
 
 #include "base/mutex.h"
+#include "base/standard_streams.h"
 #include "client/text/printable.h"
 
 namespace affskel::client {
@@ -28,28 +24,11 @@ std::string dump(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-// Of a stream that failed before the console came to it, errno tells nothing any more; the pipe itself does.
-bool nobody_reads_standard_output() {
-  pollfd pipe{STDOUT_FILENO, 0, 0};
-  return poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0;
-}
-
-// main has put in its place what can only be read.
-bool standard_output_is_closed() {
-  return (fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY;
-}
-
-constexpr const char* kStandardOutput = "standard output";
-
 // @param error_number 0: not known.
 [[noreturn]] void not_written(int error_number) {
-  if (standard_output_is_closed()) error_number = EBADF;
-  if (error_number == EPIPE || (error_number == 0 && nobody_reads_standard_output()))
-    throw ClientError(ExitCode::kClosedPipe, "nobody reads standard output");
-  if (error_number == EBADF) throw error_from_errno(error_number, "cannot write", kStandardOutput);
-  const std::string why =
-      error_number == 0 ? "there is no room left" : std::generic_category().message(error_number);
-  throw ClientError(ExitCode::kLimit, "cannot write to standard output: " + why);
+  if (base::standard_output_is_closed()) throw error_from_errno(EBADF, "cannot write", "standard output");
+  const base::OutputError error(error_number);
+  throw ClientError(error.code(), error.what());
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ void add_global_options(CLI::App& app, GlobalOptions& options) {
   add_file("--client-cert", options.access.tls_cert,
            "Own certificate, PEM, for servers that ask for one; else $AFFSKEL_CLIENT_CERT");
   add_file("--client-key", options.access.tls_key, "Its key, PEM; else $AFFSKEL_CLIENT_KEY");
-  app.add_flag("--json", options.json, "One JSON document on stdout; errors as JSON on stderr");
+  app.add_flag("--json", options.json,
+               "One JSON document on stdout, of log one a line; errors as JSON on stderr");
   app.add_flag("-q,--quiet", options.quiet, "No notes and no progress");
   add_budgets(app, options.budgets);
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <vector>
 
 #include "base/number_text.h"
 #include "base/utf8.h"
@@ -59,14 +61,14 @@ std::string count_text(const v1::Job& job) {
 }
 
 // Rates and times come and go and change their length: each has a place of its own.
-std::string steady_text(const v1::Job& job, double per_second) {
+std::vector<std::string> steady_fields(const v1::Job& job, double per_second) {
   constexpr std::size_t kShare = 6, kRate = 8, kLeft = 16;  // "123456/s", "23 h 59 min left"
   const JobProgress progress = progress_of(job);
   const std::string total = std::to_string(progress.total);
   const std::string rate = per_second > 0 ? rate_text(per_second) + "/s" : "";
-  return to_the_right(percent_text(job), kShare) + " " +
-         to_the_right(count_text(job), 2 * total.size() + 2 + progress.unit.size()) + " " +
-         to_the_right(rate, kRate) + " " + to_the_left(left_text(job), kLeft);
+  return {to_the_right(percent_text(job), kShare),
+          to_the_right(count_text(job), 2 * total.size() + 2 + progress.unit.size()),
+          to_the_right(rate, kRate), to_the_left(left_text(job), kLeft)};
 }
 
 std::string reason_text(const v1::Job& job) {
@@ -86,8 +88,12 @@ std::string progress_line(const v1::Job& job, double per_second) {
 std::string progress_bar(const v1::Job& job, double per_second, int width) {
   const std::string head = to_the_left(label(job), 9);
   const bool counts = job.directions_total() > 0;
-  const std::string tail = (counts ? steady_text(job, per_second) : std::string()) + reason_text(job);
-  const int room = width - static_cast<int>(head.size() + tail.size()) - 4;
+  std::vector<std::string> fields;
+  if (counts) fields = steady_fields(job, per_second);
+  std::istringstream reason(reason_text(job));
+  for (std::string word; reason >> word;) fields.push_back(word);
+  int room = width - static_cast<int>(head.size()) - 3;
+  for (const std::string& field : fields) room -= static_cast<int>(field.size()) + 1;
   std::string line = head;
   if (room >= 8 && counts) {
     const int cells = std::min(room, kMaxBar);
@@ -95,8 +101,13 @@ std::string progress_bar(const v1::Job& job, double per_second, int width) {
     line += " [" + std::string(static_cast<std::size_t>(full), '#') +
             std::string(static_cast<std::size_t>(cells - full), '.') + "]";
   }
-  line += " " + tail;
-  return std::string(base::truncate_utf8(line, static_cast<std::size_t>(std::max(0, width))));
+  // Without the fields behind that find no room: a part of a number would be another one.
+  const auto columns = static_cast<std::size_t>(std::max(0, width));
+  for (const std::string& field : fields) {
+    if (line.size() + 1 + field.find_last_not_of(' ') + 1 > columns) break;
+    line += " " + field;
+  }
+  return std::string(base::truncate_utf8(line, columns));
 }
 
 ProgressView::ProgressView(Console& console, std::function<Clock::time_point()> now)
@@ -125,7 +136,8 @@ double ProgressView::measure(const v1::Job& job) {
   last_done_ = done;
   last_stage_ = job.stage();
   const bool counts = job.stage() == v1::JOB_STAGE_ERODE || job.stage() == v1::JOB_STAGE_REFINE;
-  return counts && rate_ >= 1e-6 ? rate_ : 0;
+  // What it did before it ended tells nothing any more.
+  return job.state() == v1::JOB_STATE_RUNNING && counts && rate_ >= 1e-6 ? rate_ : 0;
 }
 
 void ProgressView::update(const v1::Job& job) {

@@ -185,7 +185,7 @@ constexpr const char* kMeshFile = "mesh file";
 }  // namespace
 
 CLI::Validator mesh_file() {
-  return CLI::Validator([](std::string&) { return std::string(); }, "", kMeshFile);
+  return non_empty().name(kMeshFile);
 }
 
 bool is_mesh_file(const CLI::Option& option) {

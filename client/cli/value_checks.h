@@ -34,7 +34,7 @@ CLI::Validator job_id();
 /// A direction set; rewrites it to its one spelling.
 CLI::Validator direction_set();
 
-/// Takes every text; marks an argument as the file of a mesh, for completions.
+/// Takes every text that is not empty; marks an argument as the file of a mesh, for completions.
 CLI::Validator mesh_file();
 /// Whether mesh_file() marks it.
 bool is_mesh_file(const CLI::Option& option);

@@ -55,8 +55,8 @@ void add_fetch(CommandLine& line) {
       "skeleton and eroded points .csv .ply .off .xyz .vtp; mesh, surface and eroded\n"
       "surface .off .ply .obj .stl .vtp, where the mesh as .off is the submitted bytes;\n"
       "curve .vtp .obj .ply, as a graph .json .graphml, as trees .swc, as joints that\n"
-      "move the mesh .glb; thickness, of each triangle with the part of the solid that\n"
-      "it belongs to, .ply .vtp.\n"
+      "move the mesh .glb, as vertices .csv .xyz; thickness, of each triangle with the\n"
+      "part of the solid that it belongs to, .ply .vtp.\n"
       ".vti and .vts open in every ParaView, .vts also where the lattice is turned.\n"
       "Of an eroded solid this is the one at a tenth of the volume; see erode",
       [options](Context& context) { run_fetch(context, *options); }, check_options);

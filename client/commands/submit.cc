@@ -34,17 +34,14 @@ struct SubmitOptions {
 
 namespace fs = std::filesystem;
 
-// Before hours of computing, not after.
-void prepare_output_dir(const std::string& directory) {
-  if (directory.empty()) return;
+// Before hours of computing, not after: the names that will be written may be too long, or those of files that must
+// not be replaced.
+void prepare_output(const fs::path& directory, const fs::path& name) {
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error) throw error_from_errno(error.value(), "cannot create the directory", directory);
-  try {
-    const base::AtomicFile trial(fs::path(directory) / ".affskel");  // never appears
-  } catch (const base::FileError& failed) {
-    throw error_from_errno(failed.code().value(), "cannot write there", directory);
-  }
+  if (error) throw error_from_errno(error.value(), "cannot create the directory", directory.string());
+  for (const FetchRequest& request : main_files(v1::Job(), (directory / name).string()))
+    const base::AtomicFile trial(request.destination.file);  // never appears
 }
 
 std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
@@ -146,7 +143,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   Submission asked = options.asked;
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
   const Notices said = check_mesh(input, found.solid, options.spacing, asked, console);
-  prepare_output_dir(options.output_dir);
+  if (!options.output_dir.empty()) prepare_output(options.output_dir, job_name(input.path));
   const Submitted submitted =
       submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);
   v1::Job job = submitted.job;
@@ -170,6 +167,7 @@ void add_following_options(CLI::App* command, SubmitOptions& o) {
       ->add_option("-o,--output-dir", o.output_dir,
                    "Wait, then write STEM.field.vti (.vts where the lattice is turned),\nSTEM.skeleton.vtp "
                    "and STEM.skeleton.ply here")
+      ->check(non_empty())
       ->type_name("DIR");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <vector>
 
 #include "client/base/error.h"
 
@@ -29,6 +30,16 @@ std::span<const FileFormat> divergence_formats() {
 
 std::span<const FileFormat> thickness_formats() {
   return kThickness;
+}
+
+std::span<const FileFormat> curve_file_formats() {
+  static const std::vector<FileFormat> formats = [] {
+    const auto of_lines = core::curve_formats();
+    std::vector<FileFormat> all(of_lines.begin(), of_lines.end());
+    all.insert(all.end(), {FileFormat::kCsv, FileFormat::kXyz});
+    return all;
+  }();
+  return formats;
 }
 
 std::span<const FileFormat> skeleton_file_formats() {

@@ -8,7 +8,6 @@
 
 namespace affskel::client {
 
-using core::curve_formats;
 using core::extension_of;
 using core::field_formats;
 using core::FileFormat;
@@ -18,6 +17,7 @@ using core::surface_formats;
 /// More of what can be written as which formats.
 std::span<const FileFormat> divergence_formats();     // as fields
 std::span<const FileFormat> thickness_formats();      // ply, vtp
+std::span<const FileFormat> curve_file_formats();     // those of core, and as points csv and xyz
 std::span<const FileFormat> skeleton_file_formats();  // surface_formats and skeleton_formats, best first
 std::span<const FileFormat> picture_formats();        // png
 std::span<const FileFormat> page_formats();           // html

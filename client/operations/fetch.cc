@@ -27,7 +27,7 @@ constexpr std::array<Artifact, 9> kArtifacts = {{
     {"divergence", divergence_formats, no_other, fetch_divergence},
     {"skeleton", skeleton_file_formats, no_other, fetch_skeleton},
     {"surface", surface_formats, no_other, fetch_surface},
-    {"curve", curve_formats, no_other, fetch_curve},
+    {"curve", curve_file_formats, no_other, fetch_curve},
     {"thickness", thickness_formats, no_other, fetch_thickness},
     {"eroded", surface_formats, skeleton_formats, fetch_eroded},
     {"mesh", surface_formats, no_other, fetch_submitted_mesh},

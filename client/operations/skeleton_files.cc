@@ -185,7 +185,7 @@ Fetched fetch_surface(Session& session, const FetchRequest& request) {
 }
 
 Fetched fetch_curve(Session& session, const FetchRequest& request) {
-  ShapeOutput output(request.destination, curve_formats(), "curve skeleton");
+  ShapeOutput output(request.destination, curve_file_formats(), "curve skeleton");
   const ChosenSkeleton chosen = choose_curve(session, request);
   if (output.format() == FileFormat::kGlb) return fetch_armature(session, request, chosen, output);
   v1::FetchArtifactRequest asked = request_for(chosen.job, v1::ARTIFACT_KIND_SURFACE);

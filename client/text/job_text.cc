@@ -107,6 +107,7 @@ std::string counters_details(const v1::JobCounters& c) {
 }
 
 std::string progress_text(const v1::Job& job) {
+  if (job.state() == v1::JOB_STATE_DONE && job.removed_ms() > 0) return "removed";
   if (job.directions_total() == 0) return "-";
   return std::to_string(job.directions_done()) + "/" + std::to_string(job.directions_total());
 }
@@ -194,9 +195,10 @@ std::string standing(const v1::Job& job, bool colour) {
                      utc_time(job.removed_ms()) + ", by the server's retention; resume computes them again");
   }
   if (job.expires_ms() > 0) {
-    text += key_line("expires", utc_time(job.expires_ms()) +
-                                    (job.removed_ms() > 0 ? ", with its mesh" : ", its results") +
-                                    "; pin keeps it");
+    text += key_line("expires",
+                     utc_time(job.expires_ms()) +
+                         (job.removed_ms() > 0 || !job.has_prepared() ? ", with its mesh" : ", its results") +
+                         "; pin keeps it");
   }
   if (job.memory_needed() > 0) text += key_line("memory_needed", std::to_string(job.memory_needed()));
   if (job.cancel_requested()) text += key_line("cancel_requested", "yes");

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/directory.h"
+#include "base/standard_streams.h"
 #include "base/temporary_files.h"
 
 namespace affskel::base {
@@ -69,6 +70,8 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
     open_stream(target);
     return;
   }
+  // Its folder would let it be replaced, but people protect by that what is not to be written again.
+  if (exists && faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot write");
   std::error_code error;
   if (exists) target_ = fs::canonical(target, error);
   if (error) target_ = target;
@@ -88,9 +91,8 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::open_stream(const fs::path& target) {
   if (target == "-") target_ = "standard output";
-  // Known now, not when all is done: programs keep the place of a closed one by what can only be read.
-  const bool closed = target == "-" && (fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY;
-  if (closed) throw FileError(EBADF, "cannot write", target_);
+  // Known now, not when all is done.
+  if (target == "-" && standard_output_is_closed()) throw FileError(EBADF, "cannot write", target_);
   stream_ =
       target == "-" ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0) : open(target.c_str(), O_WRONLY | O_CLOEXEC);
   if (stream_ < 0) fail("cannot write");

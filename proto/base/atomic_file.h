@@ -12,7 +12,8 @@ namespace affskel::base {
 /// directory, synced, renamed.  Without `commit` nothing is left behind, also after a signal whose handler
 /// calls remove_guarded_files.  A target that is no regular file (a device, a pipe), and the standard
 /// output, "-", get everything at `commit`, from a temporary file in $TMPDIR or /tmp: a transfer that breaks
-/// off and begins again sends them nothing twice.  A symbolic link is followed.  All members throw FileError
+/// off and begins again sends them nothing twice.  A symbolic link is followed, and a file that this user may not
+/// write is not replaced.  All members throw FileError
 /// naming the target.
 class AtomicFile {
  public:

@@ -119,6 +119,10 @@ void revoke_token(Database& db, std::int64_t id, std::int64_t now_ms) {
   }
 }
 
+void remove_token(Database& db, std::int64_t id) {
+  db.run("DELETE FROM tokens WHERE id = ?", id);
+}
+
 std::vector<std::int64_t> invalid_tokens(Database& db, const std::vector<std::int64_t>& ids,
                                          std::int64_t now_ms) {
   std::vector<std::int64_t> invalid;

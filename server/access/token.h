@@ -53,6 +53,9 @@ bool has_valid_token(Database& db, std::int64_t now_ms);
 /// Makes a token worthless; one that is so already stays as it is.  @throws StoreError kNotFound.
 void revoke_token(Database& db, std::int64_t id, std::int64_t now_ms);
 
+/// Takes back a token that was told to nobody.
+void remove_token(Database& db, std::int64_t id);
+
 /// Of these ids, those whose tokens are revoked or expired.
 std::vector<std::int64_t> invalid_tokens(Database& db, const std::vector<std::int64_t>& ids,
                                          std::int64_t now_ms);

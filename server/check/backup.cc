@@ -102,6 +102,7 @@ std::string checked_target(const std::string& target, const std::string& data_di
     throw StoreError(StoreError::Code::kInvalid, target + ": only a regular file is replaced");
   }
   if (exists && !force) fail(EEXIST, target);
+  if (exists && faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail(errno, target);
   const fs::path path = exists ? fs::canonical(target) : fs::path(target);
   // It might be the database itself, or its log; and there it would be lost together with them.
   if (lies_in(path, data_dir)) {

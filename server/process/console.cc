@@ -1,9 +1,9 @@
 #include "process/console.h"
 
-#include <cerrno>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <system_error>
+
+#include "base/standard_streams.h"
 
 namespace affskel::server {
 namespace {
@@ -38,10 +38,7 @@ void Console::result(const Json& document) const {
 }
 
 void Console::print(const std::string& text) const {
-  errno = 0;
-  if (!(std::cout << text).flush()) {
-    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(), "cannot write the results");
-  }
+  base::write_standard_output(text);
 }
 
 void Console::error(base::ExitCode code, const std::string& message) const {

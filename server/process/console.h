@@ -15,9 +15,9 @@ class Console {
 
   bool json() const { return json_; }
 
-  /// An object, as "key: value" lines or as JSON.  @throws std::system_error when it cannot be written.
+  /// An object, as "key: value" lines or as JSON.  @throws base::OutputError.
   void result(const nlohmann::ordered_json& document) const;
-  /// Text for stdout.  @throws std::system_error when it cannot be written.
+  /// Text for stdout.  @throws base::OutputError.
   void print(const std::string& text) const;
   void error(base::ExitCode code, const std::string& message) const;
   /// Of the database, found by check.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/exit_code.h"
+#include "base/standard_streams.h"
 #include "check/backup.h"
 #include "check/check_database.h"
 #include "check/repair.h"
@@ -189,12 +190,17 @@ base::ExitCode code_of(const std::system_error& error) {
 }  // namespace
 
 int run_maintenance(const Options& options) {
+  std::signal(SIGPIPE,
+              SIG_IGN);  // a reader that has gone is then told as an error, as a token must be taken back
   const Console console(options.json);
   const auto fail = [&](base::ExitCode code, const std::exception& error) {
     console.error(code, error.what());
     return static_cast<int>(code);
   };
   try {
+    // Known now, not when all is done.
+    const bool tells = options.command != Command::kTokenRevoke;
+    if (tells && base::standard_output_is_closed()) throw base::OutputError(EBADF);
     return static_cast<int>(run_command(options, console));
   } catch (const StoreError& error) {
     return fail(code_of(error), error);
@@ -202,6 +208,9 @@ int run_maintenance(const Options& options) {
     return fail(code_of(error), error);
   } catch (const DataDirInUse& error) {
     return fail(base::ExitCode::kNotAllowed, error);
+  } catch (const base::OutputError& error) {
+    if (error.code() == base::ExitCode::kClosedPipe) return static_cast<int>(error.code());
+    return fail(error.code(), error);
   } catch (const std::system_error& error) {
     const base::ExitCode code = code_of(error);
     const char* remedy = code == base::ExitCode::kNotAllowed ? "; --force replaces it" : "";

@@ -3,13 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <thread>
 #include <utility>
 
 #include "base/exit_code.h"
 #include "base/regular_file.h"
+#include "base/standard_streams.h"
 #include "process/policy_options.h"
 #include "wire/version.h"
 #include "wire/words.h"
@@ -91,7 +94,8 @@ full; 70 internal error.)";
 
 constexpr const char* kTokenFooter = R"(
 All work beside a running server and without one; the first token may be made before the server's first start. A
-server that was ever given a token asks TCP callers for one. Of a token only its hash is kept.
+server that was ever given a token asks TCP callers for one. Of a token only its hash is kept; one that cannot be
+written out is taken back.
 
 Examples:
   affskel-server token add --data-dir /var/lib/affskel --owner ada --expires 90d -o ada.token
@@ -363,7 +367,10 @@ ParsedOptions parse_options(int argc, char** argv) {
       throw CLI::ValidationError("--report-interval-ms", "must be less than --lease-ms");
     }
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(base::ExitCode::kUsage);
+    std::ostringstream help;
+    const bool asked_for = app.exit(error, help, std::cerr) == 0;
+    parsed.exit_code =
+        static_cast<int>(asked_for ? base::show_help("affskel-server", help.str()) : base::ExitCode::kUsage);
   }
   return parsed;
 }

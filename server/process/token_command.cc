@@ -17,6 +17,7 @@
 
 #include "access/token.h"
 #include "base/quoted.h"
+#include "base/standard_streams.h"
 #include "database/database_file.h"
 #include "database/errors.h"
 #include "database/migrate.h"
@@ -130,19 +131,24 @@ base::ExitCode add_token_command(const Options& options, const Console& console)
   std::optional<std::int64_t> expires;
   if (options.expires) expires = now + std::chrono::milliseconds(*options.expires).count();
   const std::int64_t id = add_token(*db, token, options.owner, options.role, now, expires);
-  if (file) file->keep();
-  if (console.json()) {
-    console.result({{"token", file ? Json() : Json(token)},
-                    {"id", id},
-                    {"owner", options.owner},
-                    {"role", wire::word(options.role)},
-                    {"expires_ms", expires ? Json(*expires) : Json()}});
-  } else {
-    if (!file) console.print(token + "\n");
-    console.note("token " + std::to_string(id) + " of " + base::quoted(options.owner) + ", role " +
-                 wire::word(options.role) + ", good until " + time_text(expires, "it is revoked") +
-                 (file ? ", in " + options.output : "; it is not shown again"));
+  try {
+    if (console.json()) {
+      console.result({{"token", file ? Json() : Json(token)},
+                      {"id", id},
+                      {"owner", options.owner},
+                      {"role", wire::word(options.role)},
+                      {"expires_ms", expires ? Json(*expires) : Json()}});
+    } else if (!file) {
+      console.print(token + "\n");
+    }
+  } catch (const base::OutputError&) {
+    remove_token(*db, id);  // nobody saw it
+    throw;
   }
+  if (file) file->keep();
+  console.note("token " + std::to_string(id) + " of " + base::quoted(options.owner) + ", role " +
+               wire::word(options.role) + ", good until " + time_text(expires, "it is revoked") +
+               (file ? ", in " + options.output : "; it is not shown again"));
   return base::ExitCode::kDone;
 }
 

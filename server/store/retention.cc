@@ -10,18 +10,23 @@
 namespace affskel::server {
 namespace {
 
+/// Nothing but the mesh is there: results were removed, or it ended before it was prepared.
+bool is_bare(const JobRow& job) {
+  return job.removed_ms > 0 || job.core_version.empty();
+}
+
 // While a call waits for an artefact of a job.
 constexpr std::int64_t kPostponedMs = 60'000;
 
 /// Age since a job's end after which its results, or the job itself, go; 0 = never.  Results never outlive
 /// the age at which the job would go.
-std::int64_t age_of(const Retention& retention, bool removed) {
-  if (removed || retention.results_age_ms == 0) return retention.jobs_age_ms;
+std::int64_t age_of(const Retention& retention, bool bare) {
+  if (bare || retention.results_age_ms == 0) return retention.jobs_age_ms;
   return retention.results_age_ms;
 }
 
-const char* age_rule(const Retention& retention, bool removed) {
-  return removed || retention.results_age_ms == 0 ? "jobs-age" : "results-age";
+const char* age_rule(const Retention& retention, bool bare) {
+  return bare || retention.results_age_ms == 0 ? "jobs-age" : "results-age";
 }
 
 bool asked_for(Database& db, const std::string& job) {
@@ -48,7 +53,7 @@ class Planner {
   std::vector<Removal> plan() {
     for (const std::string& owner : all_owners(db_)) {
       const Retention& retention = policy_.of(owner).retention;
-      for (const bool removed : {false, true}) by_age(owner, retention, removed);
+      for (const Jobs jobs : kInOrder) by_age(owner, retention, jobs);
       if (retention.stored_bytes > 0) {
         by_bytes({owner}, use_of(db_, owner).stored_bytes - retention.stored_bytes, "stored-bytes");
       }
@@ -60,6 +65,12 @@ class Planner {
   }
 
  private:
+  /// Whose results were removed, and which never had any; apart, as the index has them.
+  struct Jobs {
+    bool removed, bare;
+  };
+  static constexpr Jobs kInOrder[] = {{false, false}, {false, true}, {true, true}};
+
   bool full() const { return found_.size() >= most_; }
 
   bool is_found(const std::string& job) const {
@@ -67,16 +78,18 @@ class Planner {
                        [&](const Removal& removal) { return removal.job == job; });
   }
 
-  void by_age(const std::string& owner, const Retention& retention, bool removed) {
-    const std::int64_t age = age_of(retention, removed);
+  void by_age(const std::string& owner, const Retention& retention, Jobs jobs) {
+    const std::int64_t age = age_of(retention, jobs.bare);
     if (age == 0) return;
     Statement row = db_.query(
-        "SELECT id, finished_ms FROM jobs WHERE owner = ? AND (removed_ms > 0) = ? AND pinned = 0"
-        " AND expires_ms = 0 AND finished_ms > 0 AND finished_ms <= ? ORDER BY finished_ms",
-        owner, removed, now_ms_ + policy_.grace_ms - age);
+        "SELECT j.id, j.finished_ms FROM jobs j CROSS JOIN erosions e ON e.id = j.erosion_id"
+        " WHERE j.owner = ?1 AND (j.removed_ms > 0) = ?2"
+        " AND (?2 OR (e.core_version IS NULL) = ?3) AND j.pinned = 0"
+        " AND j.expires_ms = 0 AND j.finished_ms > 0 AND j.finished_ms <= ?4 ORDER BY j.finished_ms",
+        owner, jobs.removed, jobs.bare, now_ms_ + policy_.grace_ms - age);
     while (!full() && row.step()) {
-      found_.push_back({row.text(0), std::max(row.integer(1) + age, now_ms_ + policy_.grace_ms), removed,
-                        age_rule(retention, removed)});
+      found_.push_back({row.text(0), std::max(row.integer(1) + age, now_ms_ + policy_.grace_ms), jobs.bare,
+                        age_rule(retention, jobs.bare)});
     }
   }
 
@@ -84,7 +97,7 @@ class Planner {
   std::int64_t planned_bytes(const std::string& owner) {
     return db_
         .integer(
-            "SELECT sum(iif(j.removed_ms > 0, m.bytes, e.bytes)) FROM jobs j"
+            "SELECT sum(iif(j.removed_ms > 0 OR e.core_version IS NULL, m.bytes, e.bytes)) FROM jobs j"
             " JOIN erosions e ON e.id = j.erosion_id"
             " JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.expires_ms > 0 AND j.owner = ?",
             owner)
@@ -97,30 +110,34 @@ class Planner {
     std::int64_t bytes = 0;
   };
 
-  std::vector<Old> oldest(const std::vector<std::string>& owners, bool removed) {
-    std::vector<Old> jobs;
+  std::vector<Old> oldest(const std::vector<std::string>& owners, bool bare) {
+    std::vector<Old> found;
     for (const std::string& owner : owners) {
-      Statement row = db_.query(
-          "SELECT j.id, j.finished_ms, iif(?2, m.bytes, e.bytes) FROM jobs j"
-          " JOIN erosions e ON e.id = j.erosion_id"
-          " JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.owner = ?1 AND (j.removed_ms > 0) = ?2"
-          " AND j.pinned = 0 AND j.expires_ms = 0 AND j.finished_ms > 0 ORDER BY j.finished_ms LIMIT ?3",
-          owner, removed, most_);
-      while (row.step()) jobs.push_back({row.text(0), row.integer(1), row.integer(2)});
+      for (const Jobs jobs : kInOrder) {
+        if (jobs.bare != bare) continue;
+        Statement row = db_.query(
+            "SELECT j.id, j.finished_ms, iif(?3, m.bytes, e.bytes) FROM jobs j"
+            " CROSS JOIN erosions e ON e.id = j.erosion_id"
+            " CROSS JOIN meshes m ON m.sha256 = e.mesh_sha256 WHERE j.owner = ?1 AND (j.removed_ms > 0) = ?2"
+            " AND (?2 OR (e.core_version IS NULL) = ?3) AND j.pinned = 0 AND j.expires_ms = 0"
+            " AND j.finished_ms > 0 ORDER BY j.finished_ms LIMIT ?4",
+            owner, jobs.removed, bare, most_);
+        while (row.step()) found.push_back({row.text(0), row.integer(1), row.integer(2)});
+      }
     }
-    std::stable_sort(jobs.begin(), jobs.end(),
+    std::stable_sort(found.begin(), found.end(),
                      [](const Old& a, const Old& b) { return a.finished_ms < b.finished_ms; });
-    return jobs;
+    return found;
   }
 
   void by_bytes(const std::vector<std::string>& owners, std::int64_t excess, const char* rule) {
     if (excess <= 0) return;
     for (const std::string& owner : owners) excess -= planned_bytes(owner);
-    for (const bool removed : {false, true}) {
-      for (const Old& old : oldest(owners, removed)) {
+    for (const bool bare : {false, true}) {
+      for (const Old& old : oldest(owners, bare)) {
         if (excess <= 0 || full()) return;
         if (is_found(old.job)) continue;
-        found_.push_back({old.job, now_ms_ + policy_.grace_ms, removed, rule});
+        found_.push_back({old.job, now_ms_ + policy_.grace_ms, bare, rule});
         excess -= old.bytes;
       }
     }
@@ -137,9 +154,9 @@ class Planner {
 const char* rule_for(Tx& tx, const JobRow& job) {
   const Policy& policy = tx.options.policy;
   const Retention& retention = policy.of(job.owner).retention;
-  const bool removed = job.removed_ms > 0;
-  const std::int64_t age = age_of(retention, removed);
-  if (age > 0 && job.finished_ms + age <= tx.wall_ms) return age_rule(retention, removed);
+  const bool bare = is_bare(job);
+  const std::int64_t age = age_of(retention, bare);
+  if (age > 0 && job.finished_ms + age <= tx.wall_ms) return age_rule(retention, bare);
   if (retention.stored_bytes > 0 && use_of(tx.db, job.owner).stored_bytes > retention.stored_bytes) {
     return "stored-bytes";
   }
@@ -184,7 +201,7 @@ void plan_removals(Tx& tx, const std::vector<Removal>& removals) {
   for (const Removal& removal : removals) {
     const std::int64_t changed = tx.db.run(
         "UPDATE jobs SET expires_ms = ?2 WHERE id = ?1 AND expires_ms = 0 AND pinned = 0 AND finished_ms > 0"
-        " AND (removed_ms > 0) = ?3",
+        " AND (removed_ms > 0 OR (SELECT core_version FROM erosions WHERE id = erosion_id) IS NULL) = ?3",
         removal.job, removal.at_ms, removal.with_mesh);
     if (changed == 0) continue;
     tx.changes.jobs.insert(removal.job);
@@ -213,8 +230,8 @@ void carry_out_removal(Tx& tx, const std::string& job_id) {
     tx.changes.jobs.insert(job_id);
     return;
   }
-  add_event(tx, job_id, {.event = "removed", .message = removed_text(job.removed_ms > 0, rule)});
-  if (job.removed_ms > 0) return delete_job(tx, job);
+  add_event(tx, job_id, {.event = "removed", .message = removed_text(is_bare(job), rule)});
+  if (is_bare(job)) return delete_job(tx, job);
   remove_results(tx, job);
   tx.changes.jobs.insert(job_id);
 }

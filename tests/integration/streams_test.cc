@@ -1,6 +1,7 @@
 // What only processes of their own show: standard streams that are closed, files that may not grow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "lab.h"
@@ -15,6 +16,13 @@ class StreamsTest : public testing::Test {
     return lab_.run({"/bin/sh", "-c",
                      std::string("c() { '") + AFFSKEL_CLIENT_BINARY + "' --server '" + lab_.address() +
                          "' \"$@\"; }; " + line});
+  }
+
+  // Of the server or the worker, which say who they are.
+  void expect_failure(const std::string& line, int code, const std::string& said) const {
+    const Output output = lab_.run({"/bin/sh", "-c", line});
+    EXPECT_EQ(output.exit_code, code) << line;
+    EXPECT_NE(output.err.find(said), std::string::npos) << line << output.err;
   }
 
   void expect_closed(const std::string& line, const std::string& stream) const {
@@ -32,6 +40,35 @@ TEST_F(StreamsTest, AClosedStreamIsToldAsOne) {
   expect_closed("c man >&-", "standard output");
   expect_closed("c inspect '" + lab_.path("m.off") + "' >&-", "standard output");
   expect_closed("c make box --size 1,1,1 -o - >&-", "standard output");
+}
+
+// The first file that it opens, the lock of its folder, must not become its standard output.
+TEST_F(StreamsTest, AServersCommandsDoNothingWithAClosedStream) {
+  const std::string server = std::string("'") + AFFSKEL_SERVER_BINARY + "' ";
+  const std::string folder = " --data-dir '" + lab_.path("tokens") + "'";
+  ASSERT_EQ(lab_.run({"/bin/sh", "-c", server + "token add --owner a" + folder}).exit_code, 0);
+  const std::string lock = lab_.read("tokens/server.lock");
+  const std::string copy = " -o '" + lab_.path("copy.db") + "'";
+  for (const std::string& command :
+       {"token add --owner b" + folder, "token list" + folder, "check" + folder, "backup" + folder + copy,
+        "migrate" + folder, std::string("--version")}) {
+    expect_failure(server + command + " >&-", 2, "standard output: is closed");
+  }
+  EXPECT_FALSE(std::filesystem::exists(lab_.path("copy.db")));
+  EXPECT_EQ(lab_.read("tokens/server.lock"), lock);
+  const Output list = lab_.run({"/bin/sh", "-c", server + "token list <&- 2>&-" + folder});
+  EXPECT_EQ(std::count(list.out.begin(), list.out.end(), '\n'), 2) << list.out;
+}
+
+TEST_F(StreamsTest, OutputThatFindsNoRoomIsALimit) {
+  for (const std::string program : {AFFSKEL_SERVER_BINARY, AFFSKEL_WORKER_BINARY, AFFSKEL_CLIENT_BINARY}) {
+    for (const char* option : {" --help", " --version"}) {
+      expect_failure("'" + program + "'" + option + " >/dev/full", 8,
+                     "cannot write to standard output: No space left on device");
+    }
+  }
+  expect_failure(std::string("'") + AFFSKEL_WORKER_BINARY + "' --version >&-", 2,
+                 "standard output: is closed");
 }
 
 TEST_F(StreamsTest, AFileThatMayNotGrowIsALimitAndLeavesNothing) {

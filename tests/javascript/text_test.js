@@ -56,7 +56,8 @@ test('who is active, and whose results are gone', () => {
   assert.ok(isRemoved({ state: 'done', removed_ms: 1 }));
   assert.ok(!isRemoved({ state: 'done', removed_ms: 0 }) && !isRemoved({ state: 'failed', removed_ms: 1 }));
   assert.equal(expiry(kJob), '');
-  assert.match(expiry({ ...kJob, expires_ms: 1 }), /^Its results will be removed on /);
+  assert.match(expiry({ ...kJob, expires_ms: 1, prepared: {} }), /^Its results will be removed on /);
+  assert.match(expiry({ ...kJob, expires_ms: 1 }), /^The job and its mesh will/);
   assert.match(expiry({ ...kJob, expires_ms: 1, removed_ms: 1 }), /^The job and its mesh will/);
 });
 

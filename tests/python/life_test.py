@@ -317,6 +317,18 @@ class Errors(WithDirectory):
                      lambda: client.jobs(state="lost"), lambda: job.divergence("chords")):
             with self.assertRaises(affskel.UsageError):
                 call()
+        for call, words in ((lambda: client.job(3), "job is a text, not 3"),
+                            (lambda: client.jobs(owner=3), "owner is a text, not 3"),
+                            (lambda: job.skeleton(alpha="x"), "alpha is a number, not 'x'"),
+                            (lambda: job.skeleton(min_barrier="x"), "min_barrier is a number, not 'x'"),
+                            (lambda: job.skeleton(barrier="yes"), "barrier is True or False, not 'yes'"),
+                            (lambda: job.save("field", None), "file is a path, not None"),
+                            (lambda: job.field().save(None), "file is a path, not None")):
+            with self.assertRaisesRegex(affskel.UsageError, words):
+                call()
+        for nothing in (1, 2), (None, None):
+            with self.assertRaisesRegex(affskel.BadInputError, f"faces are rows of indices, not {nothing[1]}"):
+                client.submit(nothing)
         with self.assertRaisesRegex(affskel.NotFoundError, "ffffff"):
             client.job("ffffffffff")
 

@@ -376,7 +376,9 @@ class ForPeople(unittest.TestCase):
         row, column = np.unravel_index(np.nanargmax(image.get_array()), (rows, columns))
         place = left + (column + .5) * (right - left) / columns, low + (row + .5) * (high - low) / rows
         np.testing.assert_allclose(place, [field.points[np.argmax(field.E)]["xyz".index(axis)] for axis in shown])
-        self.assertEqual(len(body.skeleton("curve").plot().collections), 1)
+        curve = body.skeleton("curve")
+        self.assertEqual(len(curve.plot().collections), 1)
+        self.assertEqual((bool(curve), len(curve), len(curve.faces)), (True, len(curve.segments), 0))
 
 
 class SameMesh(unittest.TestCase):

@@ -129,6 +129,9 @@ void write_curve(FileFormat format, const ShapeFile& shape, const std::vector<st
       return write_curve_graphml(shape, comments, write);
     case FileFormat::kSwc:
       return write_swc(shape, comments, write);
+    case FileFormat::kCsv:
+    case FileFormat::kXyz:
+      return write_points(format, shape, comments, write);
     default:
       return write_surface(format, shape, comments, write);
   }

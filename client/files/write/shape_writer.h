@@ -50,10 +50,11 @@ void write_points(FileFormat format, const ShapeFile& shape, const std::vector<s
 void write_surface(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                    const WriteBytes& write);
 
-/// Writes the lines of a curve skeleton in one of curve_formats(): .vtp, .ply and .obj as write_surface does, and as a
-/// graph of nodes (ends, and places where lines meet) and branches: .json (UTF-8, one object), .graphml (undirected,
-/// one edge a branch), .swc (a row per vertex, "id type x y z radius parent" as Cannon, Turner, Pyapali and Turner
-/// 1998 have it: trees rooted where E is greatest, so that a loop is cut where it closes).
+/// Writes the lines of a curve skeleton in one of curve_file_formats(): .vtp, .ply and .obj as write_surface does,
+/// their vertices in .csv and .xyz as write_points does, and as a graph of nodes (ends, and places where lines meet)
+/// and branches: .json (UTF-8, one object), .graphml (undirected, one edge a branch), .swc (a row per vertex, "id type
+/// x y z radius parent" as Cannon, Turner, Pyapali and Turner 1998 have it: trees rooted where E is greatest, so that a
+/// loop is cut where it closes).
 /// @param shape with the columns E, radius, distance and share.
 void write_curve(FileFormat format, const ShapeFile& shape, const std::vector<std::string>& comments,
                  const WriteBytes& write);

@@ -235,7 +235,8 @@ class Points(Saveable):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Surface(Saveable):
-    """A triangulated skeleton, or the surface of an eroded solid.
+    """A triangulated skeleton, or the surface of an eroded solid.  Its len is that of its triangles; of lines alone, which
+    "curve" has, that of its segments.
 
     Attributes:
         vertices: (n, 3).
@@ -261,10 +262,10 @@ class Surface(Saveable):
     segments: Ints = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     def __len__(self) -> int:
-        return len(self.faces)
+        return len(self.faces) or len(self.segments)
 
     def __repr__(self) -> str:
-        return (f"<affskel.Surface of {len(self.vertices)} vertices, {len(self)} triangles, {len(self.segments)} segments"
+        return (f"<affskel.Surface of {len(self.vertices)} vertices, {len(self.faces)} triangles, {len(self.segments)} segments"
                 + (f" with {', '.join(self.attributes)}>" if self.attributes else ">"))
 
     def plot(self, **options: Any) -> Any:

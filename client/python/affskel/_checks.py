@@ -77,6 +77,17 @@ def number_of(value: object, what: str, more: str = "") -> float:
         raise UsageError(f"{what} is too large a number") from error
 
 
+def text_of(value: object, what: str) -> str:
+    """Raises UsageError for what is no text, or none that can be sent."""
+    if not isinstance(value, str):
+        raise UsageError(f"{what} is a text, not {value!r}")
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise UsageError(f"{what} is no text: {error}") from error
+    return value
+
+
 _SHARE = re.compile(r"\+?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?%")  # as affskel-client takes them
 
 

@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Union
 
-from ._checks import MAX_POINTS, longest_side, number_of, require_closed, require_counts, require_finite, require_points, share_of
+from ._checks import MAX_POINTS, longest_side, number_of, require_closed, require_counts, require_finite, require_points, share_of, text_of
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -49,16 +49,6 @@ def _user_name() -> str:
 
 
 _SPACING = ", in units of the mesh, or a share of its length such as '1%'"
-
-
-def _text(value: object, what: str) -> str:
-    if not isinstance(value, str):
-        raise UsageError(f"{what} is a text, not {value!r}")
-    try:
-        value.encode()
-    except UnicodeEncodeError as error:
-        raise UsageError(f"{what} is no text: {error}") from error
-    return value
 
 
 def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) -> bool:
@@ -173,7 +163,7 @@ class Client:
         operator = "ridge" if operator is None else operator
         for value, what in ((directions, "directions"), (minimum, "minimum"), (frame, "frame"), (operator, "operator"),
                             (repair, "repair"), (request_id, "request_id"), ("" if name is None else name, "name")):
-            _text(value, what)
+            text_of(value, what)
         header = self._header(share or spacing, points, directions, minimum, frame, repair)
         by_program = given.text is None or share is not None or isovalue is not None or repair not in ("auto", "none")
         if not by_program:
@@ -203,7 +193,7 @@ class Client:
         Example:
             >>> affskel.job("@last").status().state
         """
-        known = self._session.get_job(job)
+        known = self._session.get_job(text_of(job, "job"))
         return Job(self._session, known.id, seen=status_of(known))
 
     def jobs(self, *, state: Optional[str] = None, owner: Optional[str] = None, limit: int = 50) -> List[Job]:
@@ -215,14 +205,14 @@ class Client:
             limit: how many at most, at least 1.
 
         Raises:
-            UsageError: the state is no state, or the limit no such number.
+            UsageError: the state is no state, the owner no text, or the limit no such number.
 
         Example:
             >>> pandas.DataFrame(job.seen for job in affskel.jobs(state="done"))
         """
         if isinstance(limit, bool) or not isinstance(limit, numbers.Integral) or limit < 1:
             raise UsageError(f"the limit {limit!r} is not a whole number above 0")
-        request = service.ListJobsRequest(owner=owner or "")
+        request = service.ListJobsRequest(owner="" if owner is None else text_of(owner, "owner"))
         if state is not None:
             request.states.append(value_of_word(types.JobState, state, "state"))
         return [Job(self._session, job.id, seen=status_of(job)) for job in self._session.list_jobs(request, int(limit))]

@@ -19,6 +19,7 @@ from ._programs import page, run_program
 from ._progress import ProgressBar
 from ._saving import Result, with_origin
 from ._session import Session
+from ._settings import path_of
 from ._status import Status, status_of
 from ._view import View
 from .v1 import client_service_pb2 as service
@@ -205,16 +206,18 @@ class Job:
         chosen = self._chosen(operator, threshold)
         if chosen is not None:
             request.surface.skeleton.CopyFrom(chosen)
-        request.surface.alpha = alpha or 0.0
-        request.surface.barrier = barrier or min_barrier is not None
-        request.surface.min_barrier = min_barrier or 0.0
+        if not isinstance(barrier, (bool, np.bool_)):
+            raise UsageError(f"barrier is True or False, not {barrier!r}")
+        request.surface.alpha = 0.0 if alpha is None else number_of(alpha, "alpha")
+        request.surface.barrier = bool(barrier) or min_barrier is not None
+        request.surface.min_barrier = 0.0 if min_barrier is None else number_of(min_barrier, "min_barrier")
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         surface = surface_of(message)
-        self._warn_if_empty("surface of the skeleton", len(surface) + len(surface.segments), message.quality)
+        self._warn_if_empty("surface of the skeleton", len(surface), message.quality)
         options = _skeleton_options(operator, threshold)
         for option, value in (("--alpha", alpha), ("--min-barrier", min_barrier)):
             options += [] if value is None else [option, repr(float(value))]
-        if len(surface) == 0 and "beyond" in surface.attributes:  # lines, in every format that holds a curve
+        if len(surface.faces) == 0 and "beyond" in surface.attributes:  # lines, in every format that holds a curve
             return self._saveable(surface, "fetch", self.id, "curve", *_skeleton_options(None, threshold))
         return self._saveable(surface, "skeleton", self.id, *options, *(["--barrier"] if barrier else []))
 
@@ -297,7 +300,7 @@ class Job:
         Args:
             what: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source", "picture"
                 (.png) or "view" (.html).
-            file: the format is that of its extension; of a curve also .json, .graphml, .swc and .glb.
+            file: the format is that of its extension; of a curve also .json, .graphml, .swc, .glb, .csv and .xyz.
             options: more of the command's, such as "--operator=sobel".
 
         Raises:
@@ -308,7 +311,7 @@ class Job:
         """
         if what not in (*_FETCHED, *_DRAWN):
             raise UsageError(f"{what!r} is not written to files: expected one of {', '.join((*_FETCHED, *_DRAWN))}")
-        path = Path(file)
+        path = path_of(file, "file")
         command, subject = (_DRAWN[what], [self.id]) if what in _DRAWN else ("fetch", [self.id, what])
         run_program(self._session.reached(), [command, *options, "-o", str(path.absolute()), "--", *subject],
                     "files are written by affskel-client")

@@ -114,7 +114,7 @@ def measures_of(message: types.SolidParts) -> Measures:
     links: List[Ints] = [np.array(link.vertices, np.int64) for link in message.links]
     triangle_part, point_part = np.array(message.triangle_part, np.int64), np.array(message.point_part, np.int64)
     thickness = np.array(message.thickness, np.float64)
-    if len(triangle_part) != len(surface) or len(thickness) != len(surface):
+    if not len(triangle_part) == len(thickness) == len(surface.faces):
         raise InternalError("the server sent damaged parts of the solid: a triangle without its values")
     for given in (triangle_part, point_part):
         if len(given) and not 1 <= given.min() <= given.max() <= len(parts):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -80,6 +80,8 @@ def _face_rows(faces: Any) -> List[npt.NDArray[np.int64]]:
         if faces.ndim != 2 or faces.shape[1] < 3:
             raise BadInputError(f"faces have the shape {faces.shape}; expected (m, 3), or (m, k) with k > 3")
         return [_whole(faces, "faces")]
+    if not isinstance(faces, Iterable):
+        raise BadInputError(f"faces are rows of indices, not {faces!r}")
     rows = [_whole(face, "faces") for face in faces]
     for number, row in enumerate(rows):
         if row.ndim != 1 or len(row) < 3:

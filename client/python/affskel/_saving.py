@@ -7,7 +7,7 @@ from typing import NamedTuple, Optional, Tuple, TypeVar, Union
 
 from ._errors import UsageError
 from ._programs import run_program
-from ._settings import Settings
+from ._settings import Settings, path_of
 
 
 class Origin(NamedTuple):
@@ -36,7 +36,7 @@ class Saveable:
         """
         if self._origin is None:
             raise UsageError("this does not come from a job, so that affskel-client cannot write it")
-        path = Path(file)
+        path = path_of(file, "file")
         run_program(self._origin.settings, [*self._origin.command, "-o", str(path.absolute())],
                     "files are written by affskel-client")
         return path

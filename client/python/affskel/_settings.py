@@ -57,6 +57,13 @@ class Settings:
     client_key: str = ""
 
 
+def path_of(value: object, what: str) -> Path:
+    """Raises UsageError for what names no file."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise UsageError(f"{what} is a path, not {value!r}")
+    return Path(value)
+
+
 def parse_address(text: str) -> Address:
     """Parses `unix:PATH`, `HOST:PORT` or `[V6]:PORT`.  Raises ValueError with a message for people."""
 

@@ -6,6 +6,8 @@ import os
 from pathlib import Path
 from typing import Union
 
+from ._settings import path_of
+
 
 class View:
     """The body and its skeleton to turn, with sliders: one page that needs no network.
@@ -33,6 +35,6 @@ class View:
 
     def save(self, file: Union[str, "os.PathLike[str]"]) -> Path:
         """Writes the page, and returns where."""
-        path = Path(file)
+        path = path_of(file, "file")
         path.write_text(self.page, encoding="utf-8")
         return path

@@ -75,7 +75,7 @@ export const isRemoved = (job) => job.state === 'done' && job.removed_ms > 0;
  * @param {Job} job
  * @returns {string}
  */
-export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
+export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 || !job.prepared ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
 
 /** @param {Job} job */
 function skeleton(job) {

@@ -118,7 +118,11 @@ TEST_F(MeasureTest, FetchWritesTheCurveAsAGraph) {
   const Outcome outcome = run({"fetch", "@last", "curve", "-o", dir_ / "curve.swc"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.err.find("1 loop cut"), std::string::npos) << outcome.err;
-  EXPECT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.csv"}).exit_code, 2);
+  EXPECT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.stl"}).exit_code, 2);
+  ASSERT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.csv"}).exit_code, 0);
+  const std::string table = tests::read_file(dir_ / "curve.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 4);
+  EXPECT_NE(table.substr(0, table.find('\n')).find("radius"), std::string::npos) << table;
   ASSERT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.glb"}).exit_code, 0);
   EXPECT_EQ(service_.fetches.back().kind(), v1::ARTIFACT_KIND_PARTS);
   EXPECT_TRUE(tests::read_file(dir_ / "curve.glb").starts_with("glTF"));

@@ -46,7 +46,34 @@ TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFolderCanBeWritten) {
   const Outcome refused = run({"submit", dir_ / "cube.off", "-o", "/sys"});
   EXPECT_EQ(refused.exit_code, 7);
   EXPECT_EQ(refused.out, "");
-  EXPECT_NE(refused.err.find("/sys: cannot write there: "), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("/sys/cube.field.vti: cannot write: "), std::string::npos) << refused.err;
+  EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+}
+
+TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFilesCanHaveTheirNames) {
+  const std::string longest = std::string(251, 'x') + ".off";
+  std::filesystem::copy_file(dir_ / "cube.off", dir_ / longest);
+  std::filesystem::create_directories(dir_ / "taken/cube.skeleton.ply");
+  for (const auto& [file, folder, why] :
+       {std::array{longest, std::string("out"), std::string("File name too long")},
+        std::array{std::string("cube.off"), std::string("taken"),
+                   std::string("cube.skeleton.ply: cannot write: Is a directory")}}) {
+    const Outcome refused = run({"submit", dir_ / file, "-o", dir_ / folder});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
+    EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
+  }
+}
+
+TEST_F(ClientTest, SubmitTakesNoEmptyNames) {
+  for (const auto& [arguments, name] :
+       {std::pair{std::vector<std::string>{"submit", dir_ / "cube.off", "-o", ""},
+                  "--output-dir: must not be empty"},
+        std::pair{std::vector<std::string>{"submit", ""}, "FILE: must not be empty"}}) {
+    const Outcome refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
+  }
   EXPECT_EQ(service_.submitted.mesh_bytes(), 0u);
 }
 

@@ -176,12 +176,17 @@ TEST(JobDetails, TellsHowLongAJobIsKept) {
   job.set_state(v1::JOB_STATE_DONE);
   EXPECT_EQ(job_details(job).find("expires"), std::string::npos);
   job.set_expires_ms(kTime);
+  EXPECT_NE(job_details(job).find(utc_time(kTime) + ", with its mesh; pin keeps it\n"), std::string::npos)
+      << "it has no results";
+  job.mutable_prepared();
   EXPECT_NE(job_details(job).find(utc_time(kTime) + ", its results; pin keeps it\n"), std::string::npos);
   job.set_removed_ms(kTime - 1000);
   EXPECT_NE(job_details(job).find(utc_time(kTime) + ", with its mesh; pin keeps it\n"), std::string::npos);
   EXPECT_NE(job_details(job).find(utc_time(kTime - 1000) +
                                   ", by the server's retention; resume computes them again\n"),
             std::string::npos);
+  job.set_directions_total(500);
+  EXPECT_NE(job_details(job).find("directions:           removed\n"), std::string::npos) << job_details(job);
   job.set_pinned(true);
   EXPECT_NE(job_details(job).find("pinned:               yes\n"), std::string::npos);
 }
@@ -221,6 +226,24 @@ TEST(ProgressBar, ShowsTheShareAndFits) {
   for (int width = 0; width < 100; ++width) {
     EXPECT_LE(progress_bar(job, 123.4, width).size(), std::size_t(width)) << width;
   }
+}
+
+// A part of a number would be another one.
+TEST(ProgressBar, LeavesOutWholeFields) {
+  v1::Job job = eroding(100);
+  job.set_remaining_ms(7620000);
+  job.set_waiting_reason("the disk is full");
+  const std::string whole =
+      "erode      25.0% 100/400 directions   4642/s 2 h 07 min left  (the disk is full)";
+  for (int width = 9; width < 90; ++width) {
+    std::string line = progress_bar(job, 4642, width);
+    line.erase(line.find_last_not_of(' ') + 1);
+    ASSERT_TRUE(whole.starts_with(line)) << line;
+    if (line.size() == whole.size()) continue;
+    EXPECT_EQ(whole[line.size()], ' ') << line;
+    for (const char* part : {" 2", " h", " 07", " min"}) EXPECT_FALSE(line.ends_with(part)) << line;
+  }
+  EXPECT_EQ(progress_bar(job, 4642, 42), "erode      25.0% 100/400 directions");
 }
 
 TEST(ProgressBar, KeepsItsWidth) {
@@ -264,6 +287,15 @@ TEST_F(ProgressViewTest, PlainLinesComeAtStagesAndTenths) {
   EXPECT_EQ(err_.str(),
             "queued\nerode: 0.0%, 0/400 directions\nerode: 10.0%, 40/400 directions, 10/s\n"
             "erode: 100.0%, 400/400 directions, 180/s\n");
+}
+
+TEST_F(ProgressViewTest, WhatHasEndedHasNoRate) {
+  v1::Job cancelled = eroding(150);
+  cancelled.set_state(v1::JOB_STATE_CANCELLED);
+  show({}, {eroding(0), eroding(100), cancelled});
+  EXPECT_EQ(err_.str(),
+            "erode: 0.0%, 0/400 directions\nerode: 25.0%, 100/400 directions, 100/s\n"
+            "cancelled: 37.5%, 150/400 directions\n");
 }
 
 TEST_F(ProgressViewTest, ASteadyRateIsMeasuredExactly) {

@@ -315,7 +315,7 @@ TEST_F(WebServiceTest, MakesEveryFormatOfEveryArtefact) {
       ++files;
     }
   }
-  EXPECT_EQ(files, 6 + 6 + 7 + 7 + 2 + 7 + 5 + 5);
+  EXPECT_EQ(files, 6 + 6 + 7 + 9 + 2 + 7 + 5 + 5);
   EXPECT_EQ(made({{"artefact", "mesh"}, {"format", ".off"}}).body, mesh_);
   EXPECT_EQ(made({{"artefact", "field"}, {"format", ".stl"}}).status, 400);
   EXPECT_EQ(made({{"artefact", "soul"}}).status, 400);

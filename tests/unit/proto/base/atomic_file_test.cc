@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -58,6 +59,24 @@ TEST(AtomicFile, KeepsModeAndFollowsLinks) {
   struct stat info {};
   stat((dir / "real.txt").c_str(), &info);
   EXPECT_EQ(info.st_mode & 07777, 0640u);
+}
+
+TEST(AtomicFile, DoesNotReplaceWhatThisUserMayNotWrite) {
+  const tests::TemporaryDirectory dir;
+  tests::write_file(dir / "out.txt", "old");
+  chmod((dir / "out.txt").c_str(), 0444);
+  chmod((dir / "").c_str(), 0777);
+  const uid_t before = geteuid();
+  ASSERT_EQ(before == 0 ? seteuid(65534) : 0, 0) << "root may write everything";
+  try {
+    AtomicFile file(dir / "out.txt");
+    ADD_FAILURE() << "it would be replaced";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.code().value(), EACCES);
+  }
+  ASSERT_EQ(seteuid(before), 0);
+  EXPECT_EQ(tests::read_file(dir / "out.txt"), "old");
+  EXPECT_EQ(dir.names().size(), 1u);
 }
 
 // The process's own.

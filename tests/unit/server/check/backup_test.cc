@@ -1,6 +1,7 @@
 #include "check/backup.h"
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <system_error>
@@ -139,6 +140,19 @@ TEST_F(BackupTest, FollowsALink) {
   EXPECT_TRUE(take({true}).complete);
   EXPECT_TRUE(fs::is_symlink(target()));
   EXPECT_NO_THROW(restore());
+}
+
+TEST_F(BackupTest, DoesNotReplaceWhatThisUserMayNotWrite) {
+  std::ofstream(target()) << "old";
+  fs::permissions(target(), fs::perms(0444));
+  fs::permissions(elsewhere_.path(), fs::perms(0777));
+  fs::permissions(directory_.path(), fs::perms(0777));
+  for (const auto& entry : fs::directory_iterator(directory_.path())) fs::permissions(entry, fs::perms(0666));
+  const uid_t before = geteuid();
+  ASSERT_EQ(before == 0 ? seteuid(65534) : 0, 0) << "root may write everything";
+  EXPECT_EQ(refused_with(target(), {true}), EACCES);
+  ASSERT_EQ(seteuid(before), 0);
+  EXPECT_EQ(files_elsewhere(), (std::vector<std::string>{"copy.db"}));
 }
 
 TEST_F(BackupTest, RefusesPlacesThatCannotBeWritten) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "access/token.h"
@@ -81,6 +82,29 @@ TEST_F(TokenCommandTest, DoesNotGoToAFileThatOthersMayRead) {
   EXPECT_EQ(code, 2);
   EXPECT_NE(said.find("-o FILE"), std::string::npos) << said;
   EXPECT_TRUE(std::filesystem::is_empty(file));
+}
+
+TEST_F(TokenCommandTest, ATokenThatNobodySawIsTakenBack) {
+  Options to_file = adding("bob");
+  to_file.output = (directory_.path() / "token").string();
+  to_file.json = true;
+  for (const Options& adding_one : {adding("ada"), to_file}) {
+    const int before = dup(STDOUT_FILENO), full = open("/dev/full", O_WRONLY);
+    dup2(full, STDOUT_FILENO);
+    testing::internal::CaptureStderr();
+    const int code = run_maintenance(adding_one);
+    const std::string said = testing::internal::GetCapturedStderr();
+    dup2(before, STDOUT_FILENO);
+    std::cout.clear();
+    close(before);
+    close(full);
+    EXPECT_EQ(code, 8);
+    EXPECT_NE(said.find("cannot write to standard output: No space left on device"), std::string::npos)
+        << said;
+  }
+  EXPECT_FALSE(std::filesystem::exists(to_file.output));
+  Database db(database_file(data_dir()), Database::Mode::kReadOnly);
+  EXPECT_TRUE(list_tokens(db).empty());
 }
 
 TEST_F(TokenCommandTest, WorksWhileAServerHoldsTheDirectory) {

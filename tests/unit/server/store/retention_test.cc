@@ -335,6 +335,41 @@ TEST_F(RetentionTest, PartialResultsOfCancelledJobsGoToo) {
   EXPECT_EQ(field(job), expected_field(100, 16));
 }
 
+// Of these there are no results: the job itself is what retention has, and nothing else is told.
+TEST_F(RetentionTest, JobsThatNeverHadResultsGoByTheirAgeAlone) {
+  keep([](Policy& policy) {
+    policy.everyone.retention = {kDay, 10 * kDay, 0};
+    policy.grace_ms = 0;
+  });
+  const std::string job = submit("OFF 1").id();
+  store_->cancel(job);
+  ASSERT_EQ(store_->job(job).state(), v1::JOB_STATE_CANCELLED);
+  clock_.advance(2 * kDay);
+  retain();
+  EXPECT_FALSE(removed(job));
+  EXPECT_EQ(expires(job), 0U);
+  clock_.advance(9 * kDay);
+  retain();
+  EXPECT_FALSE(is_there(job));
+  const std::string other = submit("OFF 2").id();
+  store_->cancel(other);
+  const std::string finished = done("OFF 3");
+  keep([](Policy& policy) {
+    policy.everyone.retention = {};
+    policy.total_bytes = 1;
+    policy.grace_ms = kDay;
+  });
+  retain();
+  EXPECT_GT(expires(finished), 0U) << "results before meshes";
+  clock_.advance(kDay);
+  retain();
+  EXPECT_TRUE(removed(finished));
+  clock_.advance(kDay);
+  retain();
+  EXPECT_FALSE(is_there(other));
+  expect_sound();
+}
+
 TEST_F(RetentionTest, OwnersMayHaveRulesOfTheirOwn) {
   keep([](Policy& policy) {
     policy.everyone.retention.results_age_ms = kDay;
