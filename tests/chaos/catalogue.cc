@@ -11,11 +11,11 @@ namespace affskel::chaos {
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = {
-      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:8000", v1::MINIMUM_SET},
-      {"body", {"body", "--triangles", "500"}, 20000, "sphere:15000", v1::MINIMUM_SET},
-      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:5000", v1::MINIMUM_SET},
+      {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:3000", v1::MINIMUM_SET},
+      {"body", {"body", "--triangles", "500"}, 20000, "sphere:7000", v1::MINIMUM_SET},
+      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:2000", v1::MINIMUM_SET},
       {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles", v1::MINIMUM_SET},
-      {"infimum", {"body", "--triangles", "400"}, 12000, "triangles", v1::MINIMUM_INFIMUM},
+      {"infimum", {"body", "--triangles", "400"}, 5000, "triangles", v1::MINIMUM_INFIMUM},
   };
   return all;
 }

@@ -29,8 +29,8 @@ struct Recipe {
   }
 };
 
-/// Recipes by size: a second or two of one core, a tenth of one, next to nothing; one of seconds that are spent on the
-/// infimum over all directions.
+/// Recipes by size: half a second of one core, some hundredths, next to nothing; one of half a second that is spent on
+/// the infimum over all directions.
 constexpr std::size_t kLongTorus = 0, kLongBody = 1, kMedium = 2, kTiny = 3, kInfimum = 4;
 const std::vector<Recipe>& recipes();
 

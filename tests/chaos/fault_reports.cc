@@ -37,7 +37,7 @@ void give_back(const Scene& scene, const std::string& token) {
   static_cast<void>(scene.stage.api().worker().ReturnLease(&call.context, request, &response));
 }
 
-/// A block of directions of a new job of some seconds, or another; no token when there is none to be had.
+/// A block of directions of a new job of a second or two, or another; no token when there is none to be had.
 v1::Lease lease_block(Scene& scene) {
   Submission urgent = scene.catalogue.next(kLongBody, scene.new_name());
   urgent.priority = 8;

@@ -12,7 +12,7 @@ namespace affskel::chaos {
 /// Processes that a fault may end though it does not kill them itself.
 enum MayEnd : std::uint32_t { kNobody = 0, kServer = 1, kAWorker = 2 };
 
-/// One kind of fault.  A job of some seconds is under way when it comes, and small ones are submitted
+/// One kind of fault.  A job of a second or two is under way when it comes, and small ones are submitted
 /// meanwhile.
 struct Fault {
   const char* name;

@@ -37,7 +37,7 @@ bool Load::may_go() {
   busy_ = false;
   changed_.notify_all();
   // Not faster than a job in a while, or there would be nothing but these.
-  changed_.wait_for(lock, Milliseconds(150), [this] { return stop_; });
+  changed_.wait_for(lock, Milliseconds(300), [this] { return stop_; });
   changed_.wait(lock, [this] { return stop_ || !paused_; });
   busy_ = true;
   return !stop_;

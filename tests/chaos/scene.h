@@ -30,7 +30,7 @@ class Scene {
   std::string prefix;  ///< of all names of this run
   std::mt19937_64 random;
 
-  /// The job of some seconds that was under way when the fault came.
+  /// The job of a second or two that was under way when the fault came.
   std::string running_job;
 
   /// A name that no other submission has.

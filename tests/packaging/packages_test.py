@@ -3,6 +3,7 @@
 Usage: packages_test.py BUILD CPACK VERSION
 
 Makes the packages from the programs as they are built; leaves them in BUILD/packages."""
+import functools
 import io
 import re
 import shutil
@@ -38,6 +39,7 @@ def package(name):
     return file
 
 
+@functools.cache  # unpacked once for all tests
 def members(name, part="--fsys-tarfile"):
     """What a package installs, or its control files, by path: tarfile's entries, and the contents of files."""
     data = subprocess.run(["dpkg-deb", part, package(name)], check=True, stdout=subprocess.PIPE).stdout
