@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
+#include "client/files/read/input_file.h"
 #include "client_fixture.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
@@ -338,6 +340,18 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   for (const char* wrong : {"mend", "fill=", "fill=-1", "wrap=x", "none=3"})
     EXPECT_EQ(run({"repair", dir_ / "cube.off", "--repair", wrong, "-o", dir_ / "w.off"}).exit_code, 2)
         << wrong;
+}
+
+TEST_F(ClientTest, MeshesInOtherFormatsFaceOutward) {
+  core::Mesh cube = core::make_box(2000, 2000, 2000, 2);
+  for (core::Triangle& t : cube.triangles) std::swap(t[0], t[1]);
+  service_.artifacts[v1::ARTIFACT_KIND_MESH] = core::write_off(cube);
+  for (const char* name : {"cube.ply", "cube.stl", "cube.obj"}) {
+    ASSERT_EQ(run({"fetch", service_.job.id(), "mesh", "-o", dir_ / name}).exit_code, 0) << name;
+    EXPECT_EQ(core::enclosed_volume(parse_mesh(tests::read_file(dir_ / name), name).mesh), 8e9) << name;
+  }
+  ASSERT_EQ(run({"fetch", service_.job.id(), "mesh", "-o", dir_ / "same.off"}).exit_code, 0);
+  EXPECT_EQ(tests::read_file(dir_ / "same.off"), core::write_off(cube)) << "as it was submitted";
 }
 
 TEST_F(ClientTest, CloudsOfPointsAreWrappedWhenAsked) {
