@@ -149,14 +149,15 @@ class Marcher {
     constexpr int kNewtonSteps = 10;  // two will do but where the function is flat, as where values meet the isovalue
     Vec3 p;
     for (const std::uint32_t v : line) p = p + (1.0 / static_cast<double>(line.size())) * mesh_.points[v];
-    for (int i = 0; i <= kNewtonSteps; ++i) {
+    double step = 1;
+    for (int i = 0;; ++i) {
       for (std::size_t a = 0; a < 3; ++a) p[a] = std::clamp(p[a], cube_[a] + kMargin, cube_[a] + 1 - kMargin);
-      if (i == kNewtonSteps) break;
+      if (i == kNewtonSteps || step < kMargin) break;
       const double at = value(p);
       const Vec3 slope = (1 / kStep) * Vec3{value(p + Vec3{kStep, 0, 0}) - at, value(p + Vec3{0, kStep, 0}) - at,
                                             value(p + Vec3{0, 0, kStep}) - at};
       const double square = dot(slope, slope);
-      const double step = std::abs(at) / std::sqrt(square);
+      step = std::abs(at) / std::sqrt(square);
       if (!(step <= 1)) break;  // so flat that the zero set seems beyond the cube
       p = p - (at / square) * slope;
     }
