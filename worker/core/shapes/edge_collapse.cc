@@ -90,7 +90,8 @@ struct UncrossedFilter {
     if (!guard || !place) return place;
     std::vector<Triangle> star;
     for (const auto& t : profile.triangles()) {  // its second corner is an end of the edge
-      if (t.v0 == profile.v0() || t.v0 == profile.v1() || t.v2 == profile.v0() || t.v2 == profile.v1()) continue;
+      if (t.v0 == profile.v0() || t.v0 == profile.v1() || t.v2 == profile.v0() || t.v2 == profile.v1())
+        continue;
       star.push_back({t.v0, guard->merged(), t.v2});
     }
     const bool crosses =
@@ -111,7 +112,8 @@ struct GuardVisitor : simplification::Edge_collapse_visitor_base<SurfaceMesh> {
 
 }  // namespace
 
-Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context, SelfCrossings crossings) {
+Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context,
+                    SelfCrossings crossings) {
   StopCheck stop(context);
   SurfaceMesh surface = surface_mesh_of(mesh);
   std::optional<CrossingGuard> guard;

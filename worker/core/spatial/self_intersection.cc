@@ -59,16 +59,18 @@ Kernel::Triangle_3 triangle_of(const std::vector<Vec3>& points, const Triangle& 
   return {point_of(points, t[0]), point_of(points, t[1]), point_of(points, t[2])};
 }
 
+/// Of the side opposite to the one shared vertex.
+Box side_box(const std::vector<Vec3>& points, const Turned& turned) {
+  return box_of(std::array{points[turned.corner[1]], points[turned.corner[2]]});
+}
+
 /// False only where triangles, which have these boxes, surely meet in no more than their one shared vertex.  Cheap: in the
 /// fan of triangles round a vertex all boxes meet, but hardly a side comes near another triangle.
 bool may_meet(const Mesh& mesh, const std::vector<Box>& boxes, std::uint32_t i, std::uint32_t j) {
-  // Of the side opposite to the one shared vertex.
-  const auto side_box = [&](const Turned& turned) {
-    return box_of(std::array{mesh.points[turned.corner[1]], mesh.points[turned.corner[2]]});
-  };
   const Triangle &s = mesh.triangles[i], &t = mesh.triangles[j];
   const Turned a = shared_first(s, t);
-  return a.shared != 1 || side_box(a).meets(boxes[j]) || side_box(shared_first(t, s)).meets(boxes[i]);
+  return a.shared != 1 || side_box(mesh.points, a).meets(boxes[j]) ||
+         side_box(mesh.points, shared_first(t, s)).meets(boxes[i]);
 }
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -83,7 +85,8 @@ class Search {
   Pairs run() {
     const std::size_t count = mesh_.triangles.size();
     parallel_ranges(options_.threads, count, [this](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) degenerate_[i] = is_degenerate(mesh_.points, mesh_.triangles[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        degenerate_[i] = is_degenerate(mesh_.points, mesh_.triangles[i]);
     });
     throw_if_stopped(options_.context);
     boxes_ = boxes_of(mesh_);
@@ -164,11 +167,16 @@ bool meet_beyond_common(const std::vector<Vec3>& points, const Triangle& s, cons
   switch (a.shared) {
     case 0:
       return CGAL::do_intersect(triangle_of(points, s), triangle_of(points, t));
-    case 1:
+    case 1: {
       // Whatever they share besides the vertex is convex and reaches the side opposite to the vertex
       // in one of the two.
-      return CGAL::do_intersect(far_side(a), triangle_of(points, t)) ||
-             CGAL::do_intersect(far_side(b), triangle_of(points, s));
+      const auto reaches = [&](const Turned& turned, const Triangle& other) {
+        return side_box(points, turned)
+                   .meets(box_of(std::array{points[other[0]], points[other[1]], points[other[2]]})) &&
+               CGAL::do_intersect(far_side(turned), triangle_of(points, other));
+      };
+      return reaches(a, t) || reaches(b, s);
+    }
     case 2: {
       // They overlap only when they lie in one plane, on the same side of the edge.
       const Point p = point_of(points, a.corner[0]), q = point_of(points, a.corner[1]),

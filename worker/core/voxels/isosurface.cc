@@ -137,7 +137,8 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
     // collapse_edges works on meshes in x > 0.
     const Vec3 shift{1 - lattice.low.x, 0, 0};
     for (Vec3& p : found.mesh.points) p = p + shift;
-    found.mesh = collapse_edges(found.mesh, options.max_triangles, options.context, SelfCrossings::kNoNewOnes);
+    found.mesh =
+        collapse_edges(found.mesh, options.max_triangles, options.context, SelfCrossings::kNoNewOnes);
     for (Vec3& p : found.mesh.points) p = p - shift;
   }
   found.mesh = map_mesh(image.place, found.mesh);

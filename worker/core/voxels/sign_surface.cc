@@ -110,7 +110,8 @@ class Marcher {
 
   // Whether inner and outer corners take turns round a face.
   bool is_ambiguous(const Corners& q) const {
-    return is_inside(q[0]) == is_inside(q[2]) && is_inside(q[1]) == is_inside(q[3]) && is_inside(q[0]) != is_inside(q[1]);
+    return is_inside(q[0]) == is_inside(q[2]) && is_inside(q[1]) == is_inside(q[3]) &&
+           is_inside(q[0]) != is_inside(q[1]);
   }
   // Then, whether the inner ones belong together.
   bool are_joined(const Corners& q) const {
@@ -146,7 +147,8 @@ class Marcher {
 
   std::uint32_t add_apex(std::span<const std::uint32_t> line) {
     constexpr double kStep = 1e-4;
-    constexpr int kNewtonSteps = 10;  // two will do but where the function is flat, as where values meet the isovalue
+    constexpr int kNewtonSteps =
+        10;  // two will do but where the function is flat, as where values meet the isovalue
     Vec3 p;
     for (const std::uint32_t v : line) p = p + (1.0 / static_cast<double>(line.size())) * mesh_.points[v];
     double step = 1;
@@ -154,8 +156,9 @@ class Marcher {
       for (std::size_t a = 0; a < 3; ++a) p[a] = std::clamp(p[a], cube_[a] + kMargin, cube_[a] + 1 - kMargin);
       if (i == kNewtonSteps || step < kMargin) break;
       const double at = value(p);
-      const Vec3 slope = (1 / kStep) * Vec3{value(p + Vec3{kStep, 0, 0}) - at, value(p + Vec3{0, kStep, 0}) - at,
-                                            value(p + Vec3{0, 0, kStep}) - at};
+      const Vec3 slope =
+          (1 / kStep) * Vec3{value(p + Vec3{kStep, 0, 0}) - at, value(p + Vec3{0, kStep, 0}) - at,
+                             value(p + Vec3{0, 0, kStep}) - at};
       const double square = dot(slope, slope);
       step = std::abs(at) / std::sqrt(square);
       if (!(step <= 1)) break;  // so flat that the zero set seems beyond the cube
@@ -251,7 +254,8 @@ class Marcher {
 
 }  // namespace
 
-Mesh sign_surface(const std::function<double(const Vec3&)>& f, const CubeLattice& lattice, ExecutionContext* context) {
+Mesh sign_surface(const std::function<double(const Vec3&)>& f, const CubeLattice& lattice,
+                  ExecutionContext* context) {
   return Marcher(f, lattice, context).run();
 }
 

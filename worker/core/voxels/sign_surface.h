@@ -16,22 +16,25 @@ struct CubeLattice {
   std::array<std::size_t, 3> nodes{};  ///< along the axes
 };
 
-/// The surface between the nodes at which a function is negative, the inner ones, and the others.  Its topology is
-/// decided by the values at the nodes alone: two inner nodes belong together along an edge of a cube; across a face, of
-/// which the others are outer ones, where the mean of its four values is negative; and where this leaves more than one
-/// piece of surface in a cube, with its middle where the mean of its eight values is.  The same holds for outer ones with
-/// the rest of the signs.  So it is a manifold, parts no solid that hangs together by edges, and joins none that do not
-/// touch even at corners of cubes; a mirrored function has the mirrored surface but for the order of vertices.
+/// The surface between the nodes at which a function is negative, the inner ones, and the others.
 ///
-/// It does not cross itself, whatever the function is: a cube's face is met in straight lines between points within its
-/// edges.  One closed line on a cube bounds the cone from a place inside, wherever that is: the nearest on the zero set
-/// to the mean of the line's points that the cube holds.  More lines bound polygons in the pyramids of the faces over
-/// the cube's middle.  A face's line may also be bent to where the way between the apexes on both sides meets the face:
-/// that is how edges are turned to make triangles even (Delaunay).  All this holds by 0.05 spacings, which no rounding
-/// undoes.
+/// The values at the nodes alone decide its topology: all along an edge of a cube, in a face and in a cube is inside where
+/// the corners are, and outside likewise.  Where inner and outer corners take turns round a face, the inner ones are joined
+/// across it where the mean of the four is negative, else the outer ones.  Where there is more than one piece of surface
+/// in a cube after that, the mean of the eight says on which side the cube's middle is, which joins corners to it.  That
+/// is the topology of a complex of twelve tetrahedra in each cube, over the halves of its faces with a tip in its
+/// middle; so the surface is a manifold.  It is nearly always that of the values interpolated linearly along each axis.
+///
+/// It does not cross itself, whatever the function is.  It meets the faces of cubes in straight lines between points
+/// within their edges.  Where these form one closed line on a cube, the cube holds the cone over it from a place inside:
+/// that cannot cross itself, as a cube is convex, wherever the place is, which may thus be sought on the zero set.
+/// Where they form several, it holds polygons in the pyramids over its faces with their tips in its middle.  A line that
+/// is alone in its face, between two cones, may also bend at the way between their apexes, which lies in both cubes: so
+/// the edge over it is turned where that is nearer to the zero set.  Vertices keep 0.001 spacings away from what would
+/// make this degenerate, so that no rounding undoes it.
 ///
 /// @param f continuous; positive or 0 at the lattice's outermost nodes, else the mesh is open there.
-/// @return closed, outward, in the lattice's coordinates.
+/// @return closed, outward, in the lattice's coordinates; a function of the arguments alone.
 Mesh sign_surface(const std::function<double(const Vec3&)>& f, const CubeLattice& lattice,
                   ExecutionContext* context = nullptr);
 
