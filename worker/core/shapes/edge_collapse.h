@@ -17,7 +17,8 @@ enum class SelfCrossings { kAllowed, kNoNewOnes };
 /// triangles.
 ///
 /// The result has more triangles when no edge is left that may be collapsed: check.  Where crossings are allowed it may
-/// cross itself, too; else it does not where `mesh` does not, which takes a third more time.  A function of its arguments alone.
+/// cross itself, too; else it does not where `mesh` does not, which takes a third more time and wants a mesh without
+/// degenerate triangles.  A function of its arguments alone.
 /// @throws CoreError kBadInput when the mesh is not manifold, kCancelled when the context asks to stop.
 Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context = nullptr,
                     SelfCrossings crossings = SelfCrossings::kAllowed);

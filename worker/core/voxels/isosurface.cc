@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 #include "base/number_text.h"
 #include "core/base/error.h"

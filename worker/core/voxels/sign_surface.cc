@@ -1,14 +1,16 @@
-// Notation: the corners of a cube are numbered by their bits, x first; its edge along an axis by the axis and its lower
-// corner.  Places are in units of the spacing, from the lattice's first node, so that a cube's are in [i, i + 1].
+// Notation: the corners of a cube are numbered by their bits, x first.  Places are in units of the spacing, from the
+// lattice's first node, so that a cube's are in [i, i + 1].
 #include "core/voxels/sign_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace affskel::core {
 namespace {
@@ -147,8 +149,8 @@ class Marcher {
 
   std::uint32_t add_apex(std::span<const std::uint32_t> line) {
     constexpr double kStep = 1e-4;
-    constexpr int kNewtonSteps =
-        10;  // two will do but where the function is flat, as where values meet the isovalue
+    // Two will do but where the function is flat, as where values meet the isovalue.
+    constexpr int kNewtonSteps = 10;
     Vec3 p;
     for (const std::uint32_t v : line) p = p + (1.0 / static_cast<double>(line.size())) * mesh_.points[v];
     double step = 1;
@@ -209,8 +211,8 @@ class Marcher {
     }
   }
 
-  // Over the lines of faces with an apex on both sides, where the way between the apexes lies nearer to the zero set, or in
-  // a plane makes triangles more even.
+  // Over the lines of faces with an apex on both sides, where the way between the apexes lies nearer to the zero set, or
+  // in a plane makes triangles more even.
   void turn_edges() {
     std::vector<std::pair<Segment, std::uint32_t>> lines;
     lines.reserve(turnable_.size());
