@@ -1,13 +1,17 @@
 #include "core/shapes/edge_collapse.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
+#include "core/shapes/crossing_guard.h"
 #include "core/shapes/surface_mesh.h"
 
 namespace affskel::core {
@@ -77,14 +81,48 @@ class Placement {
   simplification::Bounded_normal_change_placement<Optimal> bounded_{Optimal()};
 };
 
+/// Refuses what a guard, if any, does not allow.  CGAL asks it just before a collapse, when nothing else changes any more.
+struct UncrossedFilter {
+  std::optional<CrossingGuard>& guard;
+
+  template <typename Profile>
+  boost::optional<Point> operator()(const Profile& profile, const boost::optional<Point>& place) const {
+    if (!guard || !place) return place;
+    std::vector<Triangle> star;
+    for (const auto& t : profile.triangles()) {  // its second corner is an end of the edge
+      if (t.v0 == profile.v0() || t.v0 == profile.v1() || t.v2 == profile.v0() || t.v2 == profile.v1())
+        continue;
+      star.push_back({t.v0, guard->merged(), t.v2});
+    }
+    const bool crosses =
+        guard->would_cross(profile.v0(), profile.v1(), {place->x(), place->y(), place->z()}, star);
+    return crosses ? boost::none : place;
+  }
+};
+
+struct GuardVisitor : simplification::Edge_collapse_visitor_base<SurfaceMesh> {
+  explicit GuardVisitor(std::optional<CrossingGuard>& of) : guard(of) {}
+
+  void OnCollapsed(const Profile&, const vertex_descriptor& v) {
+    if (guard) guard->collapsed(v);
+  }
+
+  std::optional<CrossingGuard>& guard;
+};
+
 }  // namespace
 
-Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context) {
+Mesh collapse_edges(const Mesh& mesh, std::size_t triangles, ExecutionContext* context,
+                    SelfCrossings crossings) {
   StopCheck stop(context);
   SurfaceMesh surface = surface_mesh_of(mesh);
+  std::optional<CrossingGuard> guard;
+  if (crossings == SelfCrossings::kNoNewOnes) guard.emplace(surface, triangles);
   simplification::edge_collapse(surface, FaceCountStop(triangles),
                                 CGAL::parameters::get_cost(simplification::LindstromTurk_cost<SurfaceMesh>())
-                                    .get_placement(Placement(triangles, stop)));
+                                    .get_placement(Placement(triangles, stop))
+                                    .filter(UncrossedFilter{guard})
+                                    .visitor(GuardVisitor(guard)));
   surface.collect_garbage();
   return mesh_of(surface);
 }

@@ -51,66 +51,27 @@ Turned shared_first(const Triangle& t, const Triangle& other) {
   return turned;
 }
 
-Point point_of(const Mesh& mesh, std::uint32_t v) {
-  const Vec3& p = mesh.points[v];
+Point point_of(const std::vector<Vec3>& points, std::uint32_t v) {
+  const Vec3& p = points[v];
   return {p.x, p.y, p.z};
 }
+Kernel::Triangle_3 triangle_of(const std::vector<Vec3>& points, const Triangle& t) {
+  return {point_of(points, t[0]), point_of(points, t[1]), point_of(points, t[2])};
+}
 
-class PairTest {
- public:
-  /// `boxes` of the mesh's triangles; both must outlive this, and may be filled in later.
-  PairTest(const Mesh& mesh, const std::vector<Box>& boxes) : mesh_(mesh), boxes_(boxes) {}
+/// Of the side opposite to the one shared vertex.
+Box side_box(const std::vector<Vec3>& points, const Turned& turned) {
+  return box_of(std::array{points[turned.corner[1]], points[turned.corner[2]]});
+}
 
-  bool degenerate(const Triangle& t) const {
-    return is_collapsed(t) || CGAL::collinear(point(t[0]), point(t[1]), point(t[2]));
-  }
-
-  /// False only where the triangles surely meet in no more than their one shared vertex.  Cheap: in the
-  /// fan of triangles round a vertex all boxes meet, but hardly a side comes near another triangle.
-  bool may_meet(std::uint32_t i, std::uint32_t j) const {
-    const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
-    const Turned a = shared_first(s, t);
-    return a.shared != 1 || side_box(a).meets(boxes_[j]) || side_box(shared_first(t, s)).meets(boxes_[i]);
-  }
-
-  /// Whether two triangles, neither degenerate, meet beyond what they share.
-  bool operator()(std::uint32_t i, std::uint32_t j) const {
-    const Triangle &s = mesh_.triangles[i], &t = mesh_.triangles[j];
-    const Turned a = shared_first(s, t), b = shared_first(t, s);
-    switch (a.shared) {
-      case 0:
-        return CGAL::do_intersect(triangle(s), triangle(t));
-      case 1:
-        // Whatever they share besides the vertex is convex and reaches the side opposite to the vertex
-        // in one of the two.
-        return CGAL::do_intersect(segment(a.corner[1], a.corner[2]), triangle(t)) ||
-               CGAL::do_intersect(segment(b.corner[1], b.corner[2]), triangle(s));
-      case 2:
-        return folded(a.corner, b.corner[2]);
-      default:
-        return true;
-    }
-  }
-
- private:
-  /// Box of the side opposite to the one shared vertex.
-  Box side_box(const Turned& turned) const {
-    return box_of(std::array{mesh_.points[turned.corner[1]], mesh_.points[turned.corner[2]]});
-  }
-
-  Point point(std::uint32_t v) const { return point_of(mesh_, v); }
-  Kernel::Segment_3 segment(std::uint32_t v, std::uint32_t w) const { return {point(v), point(w)}; }
-  Kernel::Triangle_3 triangle(const Triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
-
-  /// Triangles over the same edge overlap only when they lie in one plane, on the same side of the edge.
-  bool folded(const std::array<std::uint32_t, 3>& a, std::uint32_t apex) const {
-    const Point p = point(a[0]), q = point(a[1]), r = point(a[2]), s = point(apex);
-    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
-  }
-
-  const Mesh& mesh_;
-  const std::vector<Box>& boxes_;
-};
+/// False only where triangles, which have these boxes, surely meet in no more than their one shared vertex.  Cheap: in the
+/// fan of triangles round a vertex all boxes meet, but hardly a side comes near another triangle.
+bool may_meet(const Mesh& mesh, const std::vector<Box>& boxes, std::uint32_t i, std::uint32_t j) {
+  const Triangle &s = mesh.triangles[i], &t = mesh.triangles[j];
+  const Turned a = shared_first(s, t);
+  return a.shared != 1 || side_box(mesh.points, a).meets(boxes[j]) ||
+         side_box(mesh.points, shared_first(t, s)).meets(boxes[i]);
+}
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -119,12 +80,13 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 class Search {
  public:
   Search(const Mesh& mesh, const SelfIntersectionOptions& options)
-      : mesh_(mesh), options_(options), meet_(mesh, boxes_), degenerate_(mesh.triangles.size()) {}
+      : mesh_(mesh), options_(options), degenerate_(mesh.triangles.size()) {}
 
   Pairs run() {
     const std::size_t count = mesh_.triangles.size();
     parallel_ranges(options_.threads, count, [this](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) degenerate_[i] = meet_.degenerate(mesh_.triangles[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        degenerate_[i] = is_degenerate(mesh_.points, mesh_.triangles[i]);
     });
     throw_if_stopped(options_.context);
     boxes_ = boxes_of(mesh_);
@@ -152,14 +114,15 @@ class Search {
       candidates.clear();
       close.visit_above(i, [&](std::uint32_t j) {
         stop.did(kOperationsPerVisit);
-        if (meet_.may_meet(i, j)) candidates.push_back(j);
+        if (may_meet(mesh_, boxes_, i, j)) candidates.push_back(j);
       });
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
       for (const std::uint32_t j : candidates) {
         if (pairs.size() == options_.max_pairs) break;
         stop.did(kOperationsPerCandidate);
-        if (degenerate_[j] == 0 && meet_(i, j)) pairs.emplace_back(i, j);
+        if (degenerate_[j] == 0 && meet_beyond_common(mesh_.points, mesh_.triangles[i], mesh_.triangles[j]))
+          pairs.emplace_back(i, j);
       }
     }
   }
@@ -175,14 +138,14 @@ class Search {
 
   const Mesh& mesh_;
   const SelfIntersectionOptions& options_;
-  const PairTest meet_;
   std::vector<std::uint8_t> degenerate_;  // bytes: neighbours may be written at the same time
   std::vector<Box> boxes_;
 };
 
 bool pierces(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Triangle& t) {
-  const Point p = point_of(mesh, from), q = point_of(mesh, to);
-  const std::array<Point, 3> c = {point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2])};
+  const Point p = point_of(mesh.points, from), q = point_of(mesh.points, to);
+  const std::array<Point, 3> c = {point_of(mesh.points, t[0]), point_of(mesh.points, t[1]),
+                                  point_of(mesh.points, t[2])};
   const CGAL::Orientation side = CGAL::orientation(c[0], c[1], c[2], p);
   if (side == CGAL::COPLANAR || CGAL::orientation(c[0], c[1], c[2], q) != -side) return false;
   const CGAL::Orientation turn = CGAL::orientation(p, q, c[0], c[1]);
@@ -191,6 +154,39 @@ bool pierces(const Mesh& mesh, std::uint32_t from, std::uint32_t to, const Trian
 }
 
 }  // namespace
+
+bool is_degenerate(const std::vector<Vec3>& points, const Triangle& t) {
+  return is_collapsed(t) || triangle_of(points, t).is_degenerate();
+}
+
+bool meet_beyond_common(const std::vector<Vec3>& points, const Triangle& s, const Triangle& t) {
+  const Turned a = shared_first(s, t), b = shared_first(t, s);
+  const auto far_side = [&](const Turned& turned) {
+    return Kernel::Segment_3(point_of(points, turned.corner[1]), point_of(points, turned.corner[2]));
+  };
+  switch (a.shared) {
+    case 0:
+      return CGAL::do_intersect(triangle_of(points, s), triangle_of(points, t));
+    case 1: {
+      // Whatever they share besides the vertex is convex and reaches the side opposite to the vertex
+      // in one of the two.
+      const auto reaches = [&](const Turned& turned, const Triangle& other) {
+        return side_box(points, turned)
+                   .meets(box_of(std::array{points[other[0]], points[other[1]], points[other[2]]})) &&
+               CGAL::do_intersect(far_side(turned), triangle_of(points, other));
+      };
+      return reaches(a, t) || reaches(b, s);
+    }
+    case 2: {
+      // They overlap only when they lie in one plane, on the same side of the edge.
+      const Point p = point_of(points, a.corner[0]), q = point_of(points, a.corner[1]),
+                  r = point_of(points, a.corner[2]), apex = point_of(points, b.corner[2]);
+      return CGAL::coplanar(p, q, r, apex) && CGAL::coplanar_orientation(p, q, r, apex) == CGAL::POSITIVE;
+    }
+    default:
+      return true;
+  }
+}
 
 bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
   const Triangle &s = mesh.triangles[i], &t = mesh.triangles[j];
@@ -201,10 +197,8 @@ bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
 }
 
 bool triangles_meet(const Mesh& mesh, std::uint32_t i, std::uint32_t j) {
-  const auto triangle = [&](const Triangle& t) {
-    return Kernel::Triangle_3(point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2]));
-  };
-  const Kernel::Triangle_3 a = triangle(mesh.triangles[i]), b = triangle(mesh.triangles[j]);
+  const Kernel::Triangle_3 a = triangle_of(mesh.points, mesh.triangles[i]),
+                           b = triangle_of(mesh.points, mesh.triangles[j]);
   return !a.is_degenerate() && !b.is_degenerate() && CGAL::do_intersect(a, b);
 }
 

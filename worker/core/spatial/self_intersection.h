@@ -30,6 +30,13 @@ struct SelfIntersectionOptions {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const Mesh& mesh, const SelfIntersectionOptions& options = {});
 
+/// Whether two triangles, neither degenerate, share a point which their common vertices and edges do not account for.  As
+/// above: exact, vertices by their indices.
+bool meet_beyond_common(const std::vector<Vec3>& points, const Triangle& s, const Triangle& t);
+
+/// Whether the corners lie on one line, or are no three.  Exact.
+bool is_degenerate(const std::vector<Vec3>& points, const Triangle& t);
+
 /// Whether an edge of one of the triangles passes through the interior of the other.  Touching does not
 /// count, for the smallest move could end it.  Exact.
 bool pass_through(const Mesh& mesh, std::uint32_t i, std::uint32_t j);

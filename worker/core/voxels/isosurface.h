@@ -29,8 +29,9 @@ std::pair<double, double> value_range(const VoxelImage& image);
 
 /// The surface at which the image, interpolated linearly along each axis between the voxels' places, has a value.
 /// The solid is the side that most of the image's outermost voxels are not on, without voxels of the value itself; where
-/// it reaches them it ends within a voxel behind.  Vertices are moved onto the surface and along it to even triangles
-/// (mesh_zero_set, fair_onto).
+/// it reaches them it ends within a voxel behind.  At a resolution of 1 the voxels alone decide its topology, and each is
+/// on the side that its value says as long as no edges are collapsed; at a coarser one, values at places so far apart
+/// (sign_surface).  It does not cross itself.
 /// @throws CoreError kBadInput when the image has no such value, or one side has no voxel, kLimit for more than 2^24
 ///   cubes, kCancelled.
 Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options);

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include "core/base/error.h"
 #include "core/mesh_checks.h"
 #include "core/shapes/mirror.h"
 #include "core/shapes/shapes.h"
+#include "core/spatial/self_intersection.h"
 
 namespace affskel::core {
 namespace {
@@ -34,6 +37,24 @@ TEST(EdgeCollapseTest, ReachesOddAndEvenCountsOfAHalf) {
     EXPECT_EQ(whole.triangles.size(), 2 * triangles);
     expect_solid_boundary(whole);
   }
+}
+
+// A shell so thin that few triangles of one side come through the other.
+TEST(EdgeCollapseTest, MakesNoCrossingsWhereNoneAreAllowed) {
+  Mesh shell = sphere_beyond_the_plane();
+  const auto points = static_cast<std::uint32_t>(shell.points.size());
+  const std::size_t triangles = shell.triangles.size();
+  for (std::uint32_t v = 0; v < points; ++v)
+    shell.points.push_back(Vec3{2, 0, 0} + 0.99 * (shell.points[v] - Vec3{2, 0, 0}));
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const auto [a, b, c] = shell.triangles[i];
+    shell.triangles.push_back({a + points, c + points, b + points});
+  }
+  ASSERT_TRUE(self_intersections(shell).empty());
+  EXPECT_FALSE(self_intersections(collapse_edges(shell, 600)).empty());
+  const Mesh coarse = collapse_edges(shell, 600, nullptr, SelfCrossings::kNoNewOnes);
+  EXPECT_LT(coarse.triangles.size(), 800U);
+  EXPECT_TRUE(self_intersections(coarse).empty());
 }
 
 TEST(EdgeCollapseTest, StopsWhereTheTopologyWouldBreak) {

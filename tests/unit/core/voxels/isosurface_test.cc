@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -11,8 +12,10 @@
 
 #include "base/coding.h"
 #include "core/base/error.h"
+#include "core/mesh_checks.h"
 #include "core/shapes/body_shape.h"
 #include "core/solid/solid.h"
+#include "core/spatial/self_intersection.h"
 #include "core/stopping_context.h"
 #include "tools/peak_memory.h"
 
@@ -100,6 +103,26 @@ TEST(Isosurface, OfABodyIsTheBodyAtFewerTriangles) {
   const Solid whole = make_solid(fine.mesh), fewer = make_solid(coarse.mesh);
   EXPECT_NEAR(fewer.volume / whole.volume, 1, 0.002);
   for (const Vec3& p : coarse.mesh.points) EXPECT_LT(std::abs(body_function(p)), 20);
+}
+
+// The end of a groove is less wide than a voxel: the block still has no tunnel there, and its walls do not pass through each
+// other.
+TEST(Isosurface, OfAGroovedBlockIsAsTheImage) {
+  for (const double degrees : {20, 45, 60, 90}) {
+    for (const double turned : {0.0, 0.4}) {
+      const Vec3 wall{-std::sin(degrees * M_PI / 180), std::cos(degrees * M_PI / 180), 0};
+      const VoxelImage image = sampled({33, 33, 33}, grid({-4, -4, -4}, 0.25), [&](const Vec3& p) {
+        const Vec3 q{std::cos(turned) * p.x + std::sin(turned) * p.z, p.y,
+                     std::cos(turned) * p.z - std::sin(turned) * p.x};
+        const double block = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) - 2.8;
+        return std::max(block, -std::max(-q.y, dot(wall, q)));
+      });
+      const std::size_t triangles = degrees == 45 ? 4000 : 20000;
+      const Mesh mesh = isosurface(image, {.isovalue = 0, .max_triangles = triangles}).mesh;
+      expect_solid_boundary(mesh);
+      EXPECT_TRUE(self_intersections(mesh).empty());
+    }
+  }
 }
 
 // Of labels 0, 1 and 2 the value 1 bounds what is above it, as 1.5 does, but nearer to the ones.
