@@ -2,19 +2,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
-#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
 #include "client/commands/commands.h"
 #include "client/commands/shared/destination.h"
 #include "client/commands/shared/job_options.h"
+#include "client/commands/shared/notices.h"
 #include "client/commands/shared/repair_option.h"
 #include "client/commands/shared/shape_options.h"
 #include "client/files/read/input_file.h"
 #include "client/files/write/shape_writer.h"
 #include "client/text/key_line.h"
-#include "core/solid/solid.h"
 
 namespace affskel::client {
 namespace {
@@ -23,14 +22,6 @@ struct RepairOptions {
   std::string file, output, format, how = "auto";
   core::MeshFileOptions reading;
 };
-
-// What is wrong with a solid and stays so.
-std::vector<core::MeshNote> warnings_of(const core::Mesh& mesh) {
-  std::vector<core::MeshNote> notes = core::make_solid(mesh).notes;
-  std::erase_if(
-      notes, [](const core::MeshNote& note) { return note.severity != core::MeshNote::Severity::kWarning; });
-  return notes;
-}
 
 std::string steps_text(const Repair& done, bool is_sound) {
   std::string text;
@@ -49,8 +40,8 @@ void run_repair(Context& context, const RepairOptions& options) {
   });
   const Repair done = context.within_budget(Budget::Work::kRepair, options.file,
                                             [&] { return repaired(context, mesh, options.file, choice); });
-  const std::vector<core::MeshNote> warnings =
-      context.within_budget(Budget::Work::kRepair, options.file, [&] { return warnings_of(done.mesh); });
+  const Notices warnings = context.within_budget(Budget::Work::kRepair, options.file,
+                                                 [&] { return solid_warnings(done.mesh, options.file); });
   ShapeFile shape;
   shape.off.mesh = done.mesh;
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");
@@ -65,11 +56,10 @@ void run_repair(Context& context, const RepairOptions& options) {
     console.result(text);
     console.note("wrote " + destination.name());
   }
+  say(console, warnings);
   nlohmann::ordered_json warned = nlohmann::ordered_json::array();
-  for (const core::MeshNote& warning : warnings) {
-    console.warning(warning.message);
-    warned.push_back({{"code", warning.code}, {"message", warning.message}});
-  }
+  for (const Notice& notice : warnings)
+    warned.push_back({{"code", notice.code}, {"message", notice.message}});
   console.document({{"file", options.output},
                     {"repair", options.how},
                     {"steps", steps_json(done.steps)},

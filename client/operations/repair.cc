@@ -54,6 +54,14 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
   return done;
 }
 
+Notices solid_warnings(const core::Mesh& mesh, const std::string& file) {
+  Notices warnings;
+  for (const core::MeshNote& note : core::make_solid(mesh).notes)
+    if (note.severity == core::MeshNote::Severity::kWarning)
+      warnings.push_back(warning(note.code, note.message, file));
+  return warnings;
+}
+
 MeshSource replace_mesh(InputFile& input, Repair repaired) {
   MeshSource source{std::string(OffText(input).view()), std::move(repaired.steps)};
   input.off = core::OffMesh();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "client/base/notice.h"
 #include "client/files/read/input_file.h"
 #include "core/mesh/mesh.h"
 #include "core/repair/repair_mesh.h"
@@ -37,6 +38,9 @@ struct Repair {
 /// @throws ClientError kBadInput where it bounds no solid for other reasons.
 Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoice& choice,
               core::ExecutionContext* context = nullptr);
+
+/// What is wrong with a mesh that bounds a solid, and no repair mends, such as surfaces that cross each other.
+Notices solid_warnings(const core::Mesh& mesh, const std::string& file);
 
 /// What a mesh was before its repair, and what was done to it.
 struct MeshSource {
