@@ -203,14 +203,14 @@ class Marcher {
   Mesh mesh_;
 };
 
-/// Two Newton steps onto the zero set, none longer than max_move.
-Vec3 project(const ImplicitFunction& f, double step, double max_move, Vec3 p) {
+/// Two Newton steps onto the zero set.
+Vec3 project(const ImplicitFunction& f, double step, Vec3 p) {
   for (int i = 0; i < 2; ++i) {
     const double value = f(p);
     const Vec3 gradient{(f(p + Vec3{step, 0, 0}) - value) / step, (f(p + Vec3{0, step, 0}) - value) / step,
                         (f(p + Vec3{0, 0, step}) - value) / step};
     const double square = dot(gradient, gradient);
-    if (square > 0 && std::abs(value) <= max_move * std::sqrt(square)) p = p - (value / square) * gradient;
+    if (square > 0) p = p - (value / square) * gradient;
   }
   return p;
 }
@@ -221,10 +221,10 @@ Mesh mesh_zero_set(const ImplicitFunction& f, const ImplicitMeshOptions& options
   return Marcher(f, options).run();
 }
 
-void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh, double max_move) {
+void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh) {
   for (int round = 0; round < rounds; ++round) {
     smooth(mesh, 1);
-    for (Vec3& place : mesh.points) place = project(f, step, max_move, place);
+    for (Vec3& place : mesh.points) place = project(f, step, place);
   }
 }
 

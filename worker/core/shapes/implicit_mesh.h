@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 
 #include "core/mesh/mesh.h"
 
@@ -24,10 +23,9 @@ struct ImplicitMeshOptions {
 Mesh mesh_zero_set(const ImplicitFunction& f, const ImplicitMeshOptions& options);
 
 /// Evens out a mesh of the zero set of `f`: each round moves every vertex half way to the mean of its
-/// neighbours and back onto the zero set along the gradient.
+/// neighbours and back onto the zero set along the gradient.  In a groove that may be the other wall, which makes it cross
+/// itself.
 /// @param step length used for the difference quotients of the gradient, mesh units.
-/// @param max_move where f is so flat that the zero set seems farther away, the vertex stays at the mean.
-void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh,
-               double max_move = std::numeric_limits<double>::infinity());
+void fair_onto(const ImplicitFunction& f, double step, int rounds, Mesh& mesh);
 
 }  // namespace affskel::core
