@@ -348,7 +348,7 @@ TEST_F(ClientTest, MeshesInOtherFormatsFaceOutward) {
   service_.artifacts[v1::ARTIFACT_KIND_MESH] = core::write_off(cube);
   for (const char* name : {"cube.ply", "cube.stl", "cube.obj"}) {
     ASSERT_EQ(run({"fetch", service_.job.id(), "mesh", "-o", dir_ / name}).exit_code, 0) << name;
-    EXPECT_EQ(core::enclosed_volume(parse_mesh(tests::read_file(dir_ / name), name).mesh), 8e9) << name;
+    EXPECT_EQ(core::enclosed_volume(read_named_input(dir_ / name).off.mesh), 8e9) << name;
   }
   ASSERT_EQ(run({"fetch", service_.job.id(), "mesh", "-o", dir_ / "same.off"}).exit_code, 0);
   EXPECT_EQ(tests::read_file(dir_ / "same.off"), core::write_off(cube)) << "as it was submitted";
