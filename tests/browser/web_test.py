@@ -138,7 +138,7 @@ class Desktop(OnThePage):
         self.submit_body(3000, "files")
         job = self.page.driver.current_url.split("/")[-1]
         buttons = [b.get_attribute("data-file") for b in self.page.all("button[data-file]")]
-        self.assertEqual(len(buttons), 40)
+        self.assertEqual(len(buttons), 42)
         for name in buttons:
             artefact, extension = name.split(".")
             self.page.find(f"button[data-file='{name}']").click()

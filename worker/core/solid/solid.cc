@@ -372,13 +372,20 @@ Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vecto
 
 bool turn_as_in(const Solid& solid, Mesh& mesh) {
   if (solid.mesh.triangles.size() != mesh.triangles.size()) return false;
-  const auto normal = [](const Mesh& of, std::size_t t) {
-    const auto [a, b, c] = of.triangles[t];
-    return cross(of.points[b] - of.points[a], of.points[c] - of.points[a]);
-  };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (dot(normal(solid.mesh, t), normal(mesh, t)) < 0)
-      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    // By the places of corners, for a triangle may have no area, and vertices other numbers there.
+    std::array<Vec3, 3> there;
+    for (std::size_t k = 0; k < 3; ++k)
+      there[k] = solid.centre + solid.scale() * solid.mesh.points[solid.mesh.triangles[t][k]];
+    const auto [a, b, c] = mesh.triangles[t];
+    const auto away = [&](std::size_t k, std::uint32_t from) {
+      return norm(there[k % 3] - mesh.points[from]);
+    };
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (away(k, a) < away(first, a)) first = k;
+    if (away(first + 1, c) < away(first + 1, b)) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  }
   return true;
 }
 

@@ -334,6 +334,20 @@ TEST(RepairMesh, WhatItWritesEnclosesWhatItTells) {
   EXPECT_TRUE(repair_mesh(joined(large, reversed(ball))).steps.empty());
 }
 
+// It has no side of its own, and is turned with its neighbours.
+TEST(RepairMesh, TurnsATriangleWithoutArea) {
+  Mesh box = make_box(2, 2, 2);
+  const auto [a, b, c] = box.triangles[0];
+  const auto middle = static_cast<std::uint32_t>(box.points.size());
+  box.points.push_back(0.5 * (box.points[a] + box.points[b]));
+  box.triangles[0] = {a, middle, c};
+  box.triangles.push_back({middle, b, c});
+  box.triangles.push_back({a, b, middle});
+  const RepairedMesh repaired = repair_mesh(reversed(box));
+  EXPECT_NE(step(repaired, "turned-out"), nullptr);
+  EXPECT_EQ(make_solid(repaired.mesh, {.repair = false, .check_self_intersections = false}).volume, 8);
+}
+
 TEST(RepairMesh, WrapsBesideTrianglesWithoutArea) {
   Mesh line;
   line.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0.5, 0, 0}, {0, 1, 0}};
