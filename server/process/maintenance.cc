@@ -190,8 +190,8 @@ base::ExitCode code_of(const std::system_error& error) {
 }  // namespace
 
 int run_maintenance(const Options& options) {
-  std::signal(SIGPIPE,
-              SIG_IGN);  // a reader that has gone is then told as an error, as a token must be taken back
+  // A reader that has gone is then told as an error: a token that nobody saw must be taken back.
+  std::signal(SIGPIPE, SIG_IGN);
   const Console console(options.json);
   const auto fail = [&](base::ExitCode code, const std::exception& error) {
     console.error(code, error.what());
