@@ -37,6 +37,7 @@ class Choice {
     take_curves();
     throw_if_stopped(context_);
     take_tips();
+    take_core();
     take_middles();
     sort_places();
     return std::move(result_);
@@ -179,10 +180,23 @@ class Choice {
     }
   }
 
+  void take_core() {
+    if (evidence_.core.empty()) return;
+    const std::vector<float> ways = shortest_ways(complex_, result_.anchors, {}, context_);
+    for (const Cell cell : evidence_.core) {
+      float way = kNoWay;
+      for (const auto& member : complex_.star(cell)) way = std::min(way, ways[member.cube]);
+      if (static_cast<double>(way) >
+          constants_.end_spacings + constants_.end_radii * radius_about(complex_, evidence_.radius, cell))
+        result_.core.push_back({cell, 0});
+    }
+  }
+
   std::vector<char> anchored_cubes() const {
     std::vector<char> anchored(complex_.cubes(), 0);
-    for (const Anchor& anchor : result_.anchors)
-      for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
+    for (const auto* anchors : {&result_.anchors, &result_.core})
+      for (const Anchor& anchor : *anchors)
+        for (const auto& member : complex_.star(anchor.cell)) anchored[member.cube] = 1;
     return anchored;
   }
 

@@ -23,14 +23,15 @@ struct RidgeEvidence {
   const DualComplex& complex;
   const SolidParts& parts;
   const FrameField& field;
-  std::span<const LatticeEdge> edges;     ///< that the ridge surface crosses, from a weak strength on
-  std::span<const double> strength;       ///< of these crossings
-  const EdgeCells& cells;                 ///< of these edges
-  std::span<const SheetVertex> vertices;  ///< of the surface, one per cell
-  std::span<const RidgeCurve> curves;     ///< from the lower bound on
-  std::span<const LimbTip> limbs;         ///< of the solid
-  std::span<const float> radius;          ///< per sample point: distance to the surface, spacings
-  std::span<const char> doubtful;         ///< per limb, or empty: see possible_spikes()
+  std::span<const LatticeEdge> edges;            ///< that the ridge surface crosses, from a weak strength on
+  std::span<const double> strength;              ///< of these crossings
+  const EdgeCells& cells;                        ///< of these edges
+  std::span<const SheetVertex> vertices;         ///< of the surface, one per cell
+  std::span<const RidgeCurve> curves;            ///< from the lower bound on
+  std::span<const LimbTip> limbs;                ///< of the solid
+  std::span<const float> radius;                 ///< per sample point: distance to the surface, spacings
+  std::span<const char> doubtful;                ///< per limb, or empty: see possible_spikes()
+  std::span<const DualComplex::Cell> core = {};  ///< what thinning leaves: see RidgeBasis
 };
 
 /// A place on a ridge curve, for the vertex of the complex that is dual to its cell.
@@ -42,6 +43,7 @@ struct CurvePlace {
 struct RidgeAnchors {
   std::vector<Anchor> anchors;     ///< each cell once
   std::vector<CurvePlace> curves;  ///< by vertex, each once
+  std::vector<Anchor> core;        ///< far from these, each cell once; they hold only while the solid collapses
   std::uint32_t limbs = 0;         ///< tips among the anchors
   std::vector<LimbTip> doubtful;   ///< that would be, but may be spikes
   /// Per cube: it belongs to a fragment, a component beside a larger one of the same part of the solid, where the
@@ -56,7 +58,10 @@ struct RidgeAnchors {
 ///    and area enough.
 /// 2. Stretches of ridge curves, off that, that are long enough.
 /// 3. Tips of limbs that end far from both.
-/// 4. Where these do not come near the middle of a component of the complex, where E^(1/4) times the distance to the
+/// 4. Of what thinning leaves, loops and closed surfaces, what is far from all these: a collapse that nothing leads draws
+///    all the loops of a frame from one of its corners, side by side through its rods.  The lattice's own tunnels are among
+///    them, so that these hold only until tunnels are filled.
+/// 5. Where these do not come near the middle of a component of the complex, where E^(1/4) times the distance to the
 ///    surface is greatest, the longest stretch of a curve that does, or else the square there.
 /// The lower the bounds, the more.  A function of its arguments alone.
 /// @throws CoreError kBadInput when a bound is out of range; kCancelled when the context asks to stop.

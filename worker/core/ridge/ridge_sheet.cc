@@ -117,6 +117,15 @@ std::vector<LatticeLoop> loops_of(const Lattice& lattice, const DualComplex& com
   return result;
 }
 
+// Of what is left of a complex the cells that bound no other.
+std::vector<DualComplex::Cell> core_of(const DualComplex& complex, const CellSet& left) {
+  std::vector<DualComplex::Cell> core;
+  left.for_each([&](DualComplex::Cell cell) {
+    if (DualComplex::dimension(cell) > 0 && is_bare(complex, cell, left)) core.push_back(cell);
+  });
+  return core;
+}
+
 std::vector<Vec3> mesh_places(const Solid& solid, const Lattice& lattice, const SheetMesh& sheet) {
   const Vec3 origin = SamplePlaces(solid, lattice).origin();
   const Matrix3 frame = frame_matrix(lattice);
@@ -218,10 +227,13 @@ class SheetMaker {
                                  .curves = curves_,
                                  .limbs = basis_.limbs,
                                  .radius = basis_.radius,
-                                 .doubtful = doubtful};
+                                 .doubtful = doubtful,
+                                 .core = basis_.core};
     chosen_ = ridge_anchors(evidence, options_.bounds, constants_, options_.context);
     const auto collapsed = [&] {
-      return collapse(basis_.complex, chosen_.anchors,
+      std::vector<Anchor> anchors = chosen_.anchors;
+      anchors.insert(anchors.end(), chosen_.core.begin(), chosen_.core.end());
+      return collapse(basis_.complex, anchors,
                       {.cost = costs_of_ways(field_, basis_.radius), .context = options_.context});
     };
     Collapsed left = collapsed();
@@ -287,6 +299,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
           !cut.empty())
         basis.opened_limbs = tips(cut).tips;
     basis.limbs = std::move(limbs.tips);
+    basis.core = core_of(basis.complex, limbs.left);
     basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
   }
   basis.derivatives = smoothed_derivatives(lattice, field, threads, context, constants);

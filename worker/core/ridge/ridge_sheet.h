@@ -33,6 +33,8 @@ struct RidgeBasis {
   std::vector<LimbTip> limbs = {};    ///< of the solid, whatever is anchored
   /// Where the lattice has tunnels that the solid lacks: without them.
   std::vector<LimbTip> opened_limbs = {};
+  /// What thinning leaves: the squares of closed surfaces, the edges of loops and of lines between them.
+  std::vector<DualComplex::Cell> core = {};
   std::vector<LatticeLoop> loops = {};             ///< the smallest tunnels, kMaxLoops at most
   std::vector<PointDerivatives> derivatives = {};  ///< see smoothed_derivatives()
 };

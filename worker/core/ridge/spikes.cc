@@ -11,6 +11,9 @@
 namespace affskel::core {
 namespace {
 
+// Half the width of limbs that the lattice resolves, spacings: edges of chains of single cubes are born at 2.5.
+constexpr double kResolved = 3;
+
 Mesh crossing_triangles(const Solid& solid, const Mesh& walls) {
   std::vector<char> crosses(walls.triangles.size(), 0);
   for (const auto& [a, b] : solid.crossings) crosses[a] = crosses[b] = 1;
@@ -36,12 +39,13 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   if (solid.crossings.empty()) return {};
   const Mesh mesh = crossing_triangles(solid, walls);
   const DistanceToMesh crossing(mesh);
-  const double longest = std::min(kSpike * limbs.noise, longest_spike(limbs, constants));
+  const double longest = longest_spike(limbs, constants);
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
   for (const LimbTip& tip : limbs.tips) {
     const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
-    possible.push_back(tip.length <= longest &&
+    const double longest_here = tip.width < kResolved ? longest : std::min(kSpike * limbs.noise, longest);
+    possible.push_back(tip.length <= longest_here &&
                        crossing.nearest(place) <=
                            radius_about(limbs.complex, limbs.radius, tip.vertex) + limbs.noise);
   }
