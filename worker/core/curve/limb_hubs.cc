@@ -18,7 +18,9 @@ namespace {
 constexpr double kSudden = 0.4;  // of the way along a line: what a limb's radius grows by where it ends
 constexpr double kThick = 1.55;  // times as thick as the limbs
 constexpr double kGrown = 1.1;   // times the ellipsoid: what lies just outside is no limb's
-constexpr double kPlate = 2;     // times as wide as thick: what is nearest to a line makes no tube
+constexpr double kFilled =
+    0.45;  // of the ellipsoid with its moments: a chair's seat and back fill 0.58, a network 0.36
+constexpr double kPlate = 2;  // times as wide as thick: what is nearest to a line makes no tube
 
 // Of places, each as much.
 struct HubMoments {
@@ -188,7 +190,13 @@ class FindHubs {
     }
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0) result_.of[v] = kNone;
-    return true;
+    return fills(all.count, hub);
+  }
+
+  // A network of rods is none.
+  bool fills(double count, const LimbHub& hub) const {
+    const double ball = std::pow(radius_of(count) * kGrown, 3);
+    return ball * std::sqrt(determinant(hub.form)) >= kFilled;
   }
 
   // The mean square of a place in a ball, along an axis, is a fifth of the radius', in a cube a twelfth of the edge's.

@@ -14,8 +14,10 @@
 #include "core/collapse/lattice_solids.h"
 #include "core/curve/curved.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/polylines.h"
 #include "core/quality/sheet_topology.h"
 #include "core/shapes/body.h"
+#include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/solid_membership.h"
@@ -171,6 +173,32 @@ TEST(CurveSkeleton, AnArmIsAsLongWhetherTheLatticeJoinsItsFingers) {
   }
   EXPECT_LT(low, -6);
   EXPECT_GT(high, 0.5);
+}
+
+// Rods one thick along the twelve edges of a cube of edge 4.  No ridge is found in them, and the middle lies between points.
+TEST(CurveSkeleton, OfAFrameIsALineInEachRod) {
+  const auto frame = [](const Vec3& p) {
+    const double x = std::abs(p.x) - 2, y = std::abs(p.y) - 2, z = std::abs(p.z) - 2;
+    const auto rod = [](double along, double u, double v) {
+      return std::max({along, std::abs(u), std::abs(v)}) - 0.5;
+    };
+    return std::min({rod(x, y, z), rod(y, z, x), rod(z, x, y)});
+  };
+  const Curved solid(mesh_zero_set(frame, {.low = {-3, -3, -3}, .high = {3, 3, 3}, .spacing = 0.25}), 0.13,
+                     "sphere:200");
+  const CurveSkeleton curve = solid.at();
+  const auto lines = polylines(curve.vertices.size(), curve.segments);
+  EXPECT_EQ(lines.size(), 12U);
+  std::vector<std::size_t> ends(curve.vertices.size(), 0);
+  for (const auto& line : lines) {
+    double length = 0;
+    for (std::size_t n = 1; n < line.size(); ++n)
+      length += norm(curve.vertices[line[n]].position - curve.vertices[line[n - 1]].position);
+    EXPECT_NEAR(length, 4, 0.3);
+    ++ends[line.front()];
+    ++ends[line.back()];
+  }
+  EXPECT_EQ(std::count(ends.begin(), ends.end(), 3), 8);
 }
 
 TEST(CurveSkeleton, HasThePiecesAndTunnelsOfTheRidge) {

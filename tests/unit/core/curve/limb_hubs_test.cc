@@ -11,6 +11,7 @@
 #include "core/mesh/polylines.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
+#include "core/test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -23,10 +24,12 @@ struct Cube : DrawnLines {
   Vec3 middle;
   std::vector<double> radius;
 
-  explicit Cube(const Vec3& sides = {kCubeSide, kCubeSide, kCubeSide}) {
+  explicit Cube(const Vec3& sides = {kCubeSide, kCubeSide, kCubeSide})
+      : Cube(make_box(sides.x, sides.y, sides.z)) {}
+  explicit Cube(const Mesh& mesh) {
     LatticeOptions options;
     options.spacing = 0.2;
-    lattice = make_lattice(make_solid(make_box(sides.x, sides.y, sides.z)), options);
+    lattice = make_lattice(make_solid(mesh), options);
     each_point([&](const Vec3& at, std::uint32_t) {
       middle = middle + (1 / static_cast<double>(lattice.points)) * at;
     });
@@ -122,6 +125,16 @@ Cube cube_with_limb(int vertices, double radius) {
 
 TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
   EXPECT_TRUE(cube_with_limb(80, 1.7).found().hubs.empty()) << "a ball as large as the cube has 2.48";
+}
+
+// Here the walls of a hollow cube, of which no limb has anything, with lines within.
+TEST(LimbHubs, AreNoNetworks) {
+  const double inside = kCubeSide - 0.8;
+  const Vec3 wall{0.4, 0.4, 0.4};
+  Cube cube(joined(make_box(kCubeSide, kCubeSide, kCubeSide),
+                   reversed(moved(make_box(inside, inside, inside), wall))));
+  cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
+  EXPECT_TRUE(cube.found().hubs.empty());
 }
 
 TEST(LimbHubs, HoldASpur) {

@@ -133,6 +133,18 @@ TEST(RidgeSheet, OfABallIsItsCentre) {
   }
 }
 
+// No ridge is strong in it.
+TEST(RidgeSheet, OfAHollowBallIsASphereInItsMiddle) {
+  const double h = 0.2;
+  const ErodedSolid ball(joined(make_sphere(3, 1280), reversed(make_sphere(1.5, 320))), axes(h), "sphere:80");
+  const RidgeSheet sheet = ridge_of(ball);
+  EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 1}));
+  Range r;
+  for (const SheetVertex& v : sheet.vertices) r.take(norm(ball.place(v.position)));
+  EXPECT_GT(r.low, 2.25 - 1.5 * h);
+  EXPECT_LT(r.high, 2.25 + 0.5 * h);
+}
+
 // Elliptic sections 1 x 0.5: a strip in the plane of the long axis, round the cylinder's own axis.
 TEST(RidgeSheet, OfAnEllipticCylinderIsAStripRoundItsAxis) {
   const double h = 0.1;
