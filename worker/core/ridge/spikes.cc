@@ -11,9 +11,6 @@
 namespace affskel::core {
 namespace {
 
-// Half the width of limbs that the lattice resolves, spacings: edges of chains of single cubes are born at 2.5.
-constexpr double kResolved = 3;
-
 Mesh crossing_triangles(const Solid& solid, const Mesh& walls) {
   std::vector<char> crosses(walls.triangles.size(), 0);
   for (const auto& [a, b] : solid.crossings) crosses[a] = crosses[b] = 1;
@@ -39,13 +36,12 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   if (solid.crossings.empty()) return {};
   const Mesh mesh = crossing_triangles(solid, walls);
   const DistanceToMesh crossing(mesh);
-  const double longest = longest_spike(limbs, constants);
+  const double longest = std::min(kSpike * limbs.noise, longest_spike(limbs, constants));
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
   for (const LimbTip& tip : limbs.tips) {
     const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
-    const double longest_here = tip.width < kResolved ? longest : std::min(kSpike * limbs.noise, longest);
-    possible.push_back(tip.length <= longest_here &&
+    possible.push_back(tip.length <= longest &&
                        crossing.nearest(place) <=
                            radius_about(limbs.complex, limbs.radius, tip.vertex) + limbs.noise);
   }

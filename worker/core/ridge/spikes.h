@@ -23,8 +23,7 @@ struct SpikyLimbs {
 };
 
 /// Which limbs may be spikes: those about whose tips the surface crosses itself, no farther away than the surface and the
-/// noise, and that are no longer than the solid is thick somewhere, nor, unless they are one sample point thick, than
-/// kSpike times the noise: slivers that cross leave chains of single points along the surface.
+/// noise, and that are no longer than kSpike times the noise, nor than the solid is thick somewhere.
 /// @param walls the solid's surface in lattice coordinates.
 /// @return per limb; empty where the surface does not cross itself.
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
