@@ -44,6 +44,7 @@ v1::SubmitJobRequest header_of(const Submission& submission) {
   header.set_owner("chaos");
   header.set_priority(submission.priority);
   *header.mutable_params() = submission.params;
+  header.mutable_skeleton()->set_operator_(submission.skeleton);
   header.set_request_id(submission.request_id);
   header.set_mesh_sha256(submission.mesh_sha256);
   header.set_mesh_bytes(submission.mesh.size());

@@ -32,6 +32,7 @@ struct Submission {
   std::string mesh;  ///< OFF text
   std::string mesh_sha256;
   v1::ErosionParams params;
+  v1::Operator skeleton = v1::OPERATOR_UNSPECIFIED;
   std::uint32_t priority = 5;
   std::size_t recipe = 0;  ///< what its field must equal
 };

@@ -13,8 +13,8 @@ const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = {
       {"torus", {"torus", "--triangles", "2048"}, 20000, "triangles+sphere:3000", v1::MINIMUM_SET},
       {"body", {"body", "--triangles", "500"}, 20000, "sphere:7000", v1::MINIMUM_SET},
-      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:2000", v1::MINIMUM_SET},
-      {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles", v1::MINIMUM_SET},
+      {"medium", {"body", "--triangles", "300"}, 3000, "sphere:2000", v1::MINIMUM_SET, v1::OPERATOR_FLUX},
+      {"tiny", {"torus", "--triangles", "256"}, 2000, "triangles", v1::MINIMUM_SET, v1::OPERATOR_FLUX},
       {"infimum", {"body", "--triangles", "400"}, 5000, "triangles", v1::MINIMUM_INFIMUM},
   };
   return all;
@@ -43,6 +43,7 @@ Submission Catalogue::next(std::size_t recipe, const std::string& name) const {
   submission.params.set_directions(recipes()[recipe].directions);
   submission.params.set_minimum(recipes()[recipe].minimum);
   submission.params.set_repair(true);
+  submission.skeleton = recipes()[recipe].skeleton;
   submission.recipe = recipe;
   return submission;
 }

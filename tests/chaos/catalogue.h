@@ -22,6 +22,8 @@ struct Recipe {
   std::uint64_t points;
   const char* directions;
   v1::Minimum minimum;
+  /// Of jobs of which there are many one that is soon derived: the default one takes longer than their fields.
+  v1::Operator skeleton = v1::OPERATOR_UNSPECIFIED;
 
   /// What its field is fetched as.
   v1::ArtifactKind field_kind() const {

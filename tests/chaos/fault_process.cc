@@ -4,6 +4,7 @@
 
 #include "faults.h"
 #include "tools/files.h"
+#include "wire/words.h"
 
 namespace affskel::chaos {
 namespace {
@@ -17,10 +18,10 @@ std::vector<std::string> client(const Scene& scene, std::vector<std::string> arg
 
 std::vector<std::string> submit_command(const Scene& scene, const Submission& submission,
                                         const std::string& file) {
-  return client(scene,
-                {"submit", file, "--points", std::to_string(submission.params.sampling().target_points()),
-                 "--directions", submission.params.directions(), "--name", submission.name, "--request-id",
-                 submission.request_id});
+  return client(
+      scene, {"submit", file, "--points", std::to_string(submission.params.sampling().target_points()),
+              "--directions", submission.params.directions(), "--operator", wire::word(submission.skeleton),
+              "--name", submission.name, "--request-id", submission.request_id});
 }
 
 /// Writes down that the command line said a job's id.

@@ -2,12 +2,14 @@
 
 Usage: package_test.py PROJECT VENV"""
 import ast
+import importlib.util
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import tempfile
 import unittest
@@ -43,8 +45,15 @@ def setUpModule():
     assert sources() == before, "building left files in the project's tree"
     (wheel,) = (directory / "made").glob("*.whl")
     (sdist,) = (directory / "made").glob("*.tar.gz")
-    venv.create(VENV, system_site_packages=True, clear=True, with_pip=True)
-    run(PYTHON, "-m", "pip", "install", "--no-index", "--no-build-isolation", wheel, cwd=directory)
+    venv.create(VENV, system_site_packages=True, clear=True)
+    run(PYTHON, pip(), "install", "--no-index", "--no-build-isolation", wheel, cwd=directory)
+
+
+def pip():
+    """The pip that environments get, run from its archive: installing it into this one takes seven seconds."""
+    folders = (sysconfig.get_config_var("WHEEL_PKG_DIR") or "/usr/share/python-wheels",
+               Path(importlib.util.find_spec("ensurepip").origin).parent / "_bundled")
+    return next(wheel for folder in folders for wheel in Path(folder).glob("pip-*.whl")) / "pip"
 
 
 def sources():

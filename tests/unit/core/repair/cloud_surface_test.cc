@@ -87,8 +87,8 @@ TEST(CloudSurface, OfADenseNoisyBodyIsLaidThroughFewer) {
 // Each of two solids, far apart, looks outward, whatever its points' scale and place, and however often they come.
 TEST(CloudSurface, OfTwoSolidsHoldsBoth) {
   const Mesh torus = make_torus(3, 1, 4096);
-  std::vector<Vec3> points = scanned(torus, 4000, 0);
-  for (const Vec3& p : scanned(torus, 4000, 0, 2)) points.push_back(p + Vec3{0, 0, 20});
+  std::vector<Vec3> points = scanned(torus, 2000, 0);
+  for (const Vec3& p : scanned(torus, 2000, 0, 2)) points.push_back(p + Vec3{0, 0, 20});
   for (const double scale : {1e-30, 1.0, 1e30}) {
     std::vector<Vec3> scaled;
     for (const Vec3& p : points)
@@ -153,7 +153,7 @@ TEST(CloudSurface, RefusesWhatIsNoSurface) {
 }
 
 TEST(CloudSurface, IsTheSameEachTime) {
-  const std::vector<Vec3> points = scanned(make_body(), 5000, 0.002);
+  const std::vector<Vec3> points = scanned(make_body({.triangles = 1000}), 2500, 0.002);
   const Mesh once = cloud_surface(points).mesh, again = cloud_surface(points).mesh;
   ASSERT_EQ(once.points.size(), again.points.size());
   for (std::size_t v = 0; v < once.points.size(); ++v) ASSERT_EQ(norm(once.points[v] - again.points[v]), 0);

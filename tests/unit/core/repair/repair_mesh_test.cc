@@ -240,8 +240,8 @@ TEST(RepairMesh, StopsWithinAWrap) {
 TEST(RepairMesh, PointsAreWrapped) {
   const Mesh ball = make_sphere(10, 320);
   Mesh points;
-  points.points = surface_samples(ball, 20000);
-  const RepairedMesh repaired = repair_mesh(points, {.kind = RepairKind::kWrap, .alpha = 1});
+  points.points = surface_samples(ball, 8000);
+  const RepairedMesh repaired = repair_mesh(points, {.kind = RepairKind::kWrap, .alpha = 2});
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(ball), 1, 0.02);
   EXPECT_EQ(repair_mesh(points).left, "there are points and no triangles");
 }

@@ -133,24 +133,25 @@ TEST(Glb, IsGltfWithASkin) {
   EXPECT_EQ(word_at(file, 8), file.size());
   const std::size_t length = word_at(file, 12);
   EXPECT_EQ(length % 4, 0U);
-  const auto json = nlohmann::json::parse(file.substr(20, length));
-  EXPECT_EQ(json["asset"]["extras"]["about"][0], "made by \"hand\"");
+  const auto document = nlohmann::json::parse(file.substr(20, length));
+  EXPECT_EQ(document["asset"]["extras"]["about"][0], "made by \"hand\"");
   const std::string binary = file.substr(28 + length);
   EXPECT_EQ(word_at(file, 20 + length), binary.size());
-  EXPECT_EQ(json["buffers"][0]["byteLength"], binary.size());
-  for (const auto& view : json["bufferViews"]) {
+  EXPECT_EQ(document["buffers"][0]["byteLength"], binary.size());
+  for (const auto& view : document["bufferViews"]) {
     EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 4, 0U);
     EXPECT_LE(view["byteOffset"].get<std::size_t>() + view["byteLength"].get<std::size_t>(), binary.size());
   }
   const auto values = [&](const nlohmann::json& accessor, std::size_t n) {
     const auto& view =
-        json["bufferViews"][json["accessors"][accessor.get<std::size_t>()]["bufferView"].get<std::size_t>()];
+        document["bufferViews"]
+                [document["accessors"][accessor.get<std::size_t>()]["bufferView"].get<std::size_t>()];
     float value = 0;
     std::memcpy(&value, binary.data() + view["byteOffset"].get<std::size_t>() + 4 * n, 4);
     return double{value};
   };
-  const auto& nodes = json["nodes"];
-  const auto& joints = json["skins"][0]["joints"];
+  const auto& nodes = document["nodes"];
+  const auto& joints = document["skins"][0]["joints"];
   ASSERT_EQ(joints.size(), armature.joints.size());
   std::vector<core::Vec3> world(nodes.size());
   for (std::size_t n = 2; n < nodes.size(); ++n) {
@@ -161,10 +162,11 @@ TEST(Glb, IsGltfWithASkin) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const core::Vec3 at = world[joints[j]];
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(values(json["skins"][0]["inverseBindMatrices"], 16 * j + 12 + static_cast<std::size_t>(c)),
-                  -at[c], 1e-5);
+      EXPECT_NEAR(
+          values(document["skins"][0]["inverseBindMatrices"], 16 * j + 12 + static_cast<std::size_t>(c)),
+          -at[c], 1e-5);
   }
-  const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+  const auto& attributes = document["meshes"][0]["primitives"][0]["attributes"];
   for (std::size_t v = 0; v < solid.surface.points.size(); ++v) {
     double sum = 0;
     for (std::size_t k = 0; k < 4; ++k) sum += values(attributes["WEIGHTS_0"], 4 * v + k);
