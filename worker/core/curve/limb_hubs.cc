@@ -15,12 +15,11 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kSudden = 0.4;  // of the way along a line: what a limb's radius grows by where it ends
-constexpr double kThick = 1.55;  // times as thick as the limbs
-constexpr double kGrown = 1.1;   // times the ellipsoid: what lies just outside is no limb's
-constexpr double kFilled =
-    0.45;  // of the ellipsoid with its moments: a chair's seat and back fill 0.58, a network 0.36
-constexpr double kPlate = 2;  // times as wide as thick: what is nearest to a line makes no tube
+constexpr double kSudden = 0.4;   // of the way along a line: what a limb's radius grows by where it ends
+constexpr double kThick = 1.55;   // times as thick as the limbs
+constexpr double kGrown = 1.1;    // times the ellipsoid: what lies just outside is no limb's
+constexpr double kFilled = 0.45;  // of the ellipsoid with its moments: a network fills less
+constexpr double kPlate = 2;      // times as wide as thick: what is nearest to a line makes no tube
 
 // Of places, each as much.
 struct HubMoments {
