@@ -165,6 +165,7 @@ class Compose(unittest.TestCase):
         options = ("--points", "330000", *jobs.DIRECTIONS)
         job, watch = self.person().half_done(*options)
         backup, restore = blocks("Backup and restore")
+        (self.place / "affskel-backup.db").write_text("yesterday's")
         self.type(backup)
         done = self.directions_done(job)
         self.type(restore)
@@ -196,6 +197,35 @@ class Compose(unittest.TestCase):
         self.assertEqual(self.engine.inspect("affskel_worker_4")["State"]["ExitCode"], 0)
         self.type(remove)
         self.assertEqual(self.engine.podman("container", "exists", "affskel_worker_4", check=False)[1], 1)
+
+    def test_B_certificates(self):
+        renew, own = blocks("Certificates")
+        trust = blocks("People")[0].splitlines()[2]
+        self.assertIn("> ca.pem", trust)
+        old = (self.place / "ca.pem").read_bytes()
+        worker = self.engine.process(WORKERS[0])
+        self.type(renew)
+        self.type(trust)
+        self.assertNotEqual((self.place / "ca.pem").read_bytes(), old)
+        self.assert_a_job_is_done("5000")
+        self.assertEqual(self.engine.process(WORKERS[0]), worker)
+        # One that an authority has signed, for the name alone by which people know the server.
+        request = ("openssl", "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes")
+        for words in ((*request, "-x509", "-subj", "/CN=authority", "-keyout", "authority.key", "-out", "ca.pem"),
+                      (*request, "-subj", "/CN=lab", "-addext", f"subjectAltName=DNS:{NAME}", "-keyout", "server.key",
+                       "-out", "request.pem"),
+                      ("openssl", "x509", "-req", "-in", "request.pem", "-copy_extensions", "copy", "-CA", "ca.pem",
+                       "-CAkey", "authority.key", "-days", "2", "-out", "server.pem")):
+            self.engine.run(*words, cwd=self.place)
+        self.type(own)
+        self.assert_a_job_is_done("6000")
+        self.until_healthy("affskel_web_1")
+        self.test_4_page()
+
+    def assert_a_job_is_done(self, points):
+        """By workers that have to connect anew."""
+        self.engine.podman("restart", "--time", "20", SERVER)
+        self.assertIn("done", self.client("submit", "torus.off", "--points", points, "--wait"))
 
     def workers(self):
         admin = self.engine.podman("exec", SERVER, "affskel-client", "--json", "--server",
