@@ -193,6 +193,7 @@ class LabServer(unittest.TestCase):
                 shutil.copyfile(self.server.root / source, host.root / place / name)
                 (host.root / place / name).chmod(0o600)
                 shutil.chown(host.root / place / name, *host.ids(user))
+        self.worker.stop(WORKER)  # else it would leave when it is refused
         self.server.run("sed -i 's|^#tls-client-ca = |tls-client-ca = |' /etc/affskel/server.conf")
         self.type(self.server, f"systemctl restart {SERVER}")
         for block in (install, restart):
