@@ -21,8 +21,8 @@ import jobs
 engine.enter()
 SOURCES, GUIDE, PROGRAMS, STORAGE = engine.paths(4)
 
-# As the DNS has it: containers reach it, too.
-NAME, ADDRESS = "lab.example.org", "192.0.2.7"
+# As the DNS has it: containers reach it, too, and need not ask for another address, which nobody here would answer.
+NAME, ADDRESSES = "lab.example.org", ("192.0.2.7", "2001:db8::7")
 SERVER, WORKERS = "affskel_server_1", ("affskel_worker_1", "affskel_worker_2")
 LONG = ("--points", "300000", *jobs.DIRECTIONS)
 
@@ -47,8 +47,9 @@ class Compose(unittest.TestCase):
         shutil.copytree(SOURCES, cls.place)
         # In this mount namespace alone.
         hosts = place / "hosts"
-        hosts.write_text(f"127.0.0.1 localhost\n{ADDRESS} {NAME}\n")
-        subprocess.run(["ip", "address", "add", ADDRESS, "dev", "lo"], check=True)
+        hosts.write_text("\n".join(("127.0.0.1 localhost", *(f"{address} {NAME}" for address in ADDRESSES), "")))
+        for address in ADDRESSES:
+            subprocess.run(["ip", "address", "add", address, "dev", "lo"], check=True)
         subprocess.run(["mount", "--bind", hosts, "/etc/hosts"], check=True)
         cls.settings = cls.engine.environment | engine.bare_environment(
             PATH=f"{PROGRAMS}:{os.environ['PATH']}", HOME=str(place), CONTAINERS_CONF=cls.engine.environment["CONTAINERS_CONF"],
