@@ -2,6 +2,8 @@
 
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
+#include <grpcpp/security/tls_certificate_provider.h>
+#include <grpcpp/security/tls_credentials_options.h>
 #include <grpcpp/support/client_interceptor.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
@@ -23,6 +25,8 @@ namespace {
 
 // Far above any certificate chain and any token.
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 20;
+// How often certificates and keys are looked at that may have been replaced.
+constexpr unsigned kLookAtFilesSeconds = 1;
 
 std::string read_access_file(const std::string& path, const char* what) {
   if (const char* kind = base::kind_unless_regular(path))
@@ -125,13 +129,17 @@ std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Address& address,
                                 (files.tls_cert.empty() ? files.tls_key : files.tls_cert) + " is alone");
   }
   if (address.is_unix || files.tls_ca.empty()) return grpc::InsecureChannelCredentials();
-  grpc::SslCredentialsOptions options;
-  options.pem_root_certs = read_certificates(files.tls_ca);
+  read_certificates(files.tls_ca);
+  grpc::experimental::TlsChannelCredentialsOptions options;
+  options.set_certificate_provider(std::make_shared<grpc::experimental::FileWatcherCertificateProvider>(
+      files.tls_key, files.tls_cert, files.tls_ca, kLookAtFilesSeconds));
+  options.watch_root_certs();
   if (!files.tls_cert.empty()) {
-    options.pem_cert_chain = read_certificates(files.tls_cert);
-    options.pem_private_key = read_pem(files.tls_key, "private key", PEM_read_bio_PrivateKey, EVP_PKEY_free);
+    read_certificates(files.tls_cert);
+    read_pem(files.tls_key, "private key", PEM_read_bio_PrivateKey, EVP_PKEY_free);
+    options.watch_identity_key_cert_pairs();
   }
-  return grpc::SslCredentials(options);
+  return grpc::experimental::TlsCredentials(options);
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ struct AccessFiles {
   std::string tls_key = {};     ///< PEM, its key
 };
 
-/// A channel whose calls carry the token of these files.  The token is read again when its file has changed,
-/// so that a program that runs for weeks can be given a new one.  From then on the process leaves no core
-/// dump. A Unix socket has no TLS: the files of TLS are for TCP.
+/// A channel whose calls carry the token of these files.  Token, certificates and key are read again when their
+/// files have changed, so that a program that runs for weeks can be given new ones.  From then on the process
+/// leaves no core dump.  A Unix socket has no TLS: the files of TLS are for TCP.
 /// @throws std::invalid_argument, naming the file, when one cannot be read or has not what it should; and
 ///   when a token would leave this machine in the clear.
 std::shared_ptr<grpc::Channel> make_channel(const Address& address, const AccessFiles& files,

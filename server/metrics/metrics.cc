@@ -1,7 +1,9 @@
 #include "metrics/metrics.h"
 
+#include <google/protobuf/descriptor.h>
 #include <prometheus/family.h>
 
+#include "affskel/v1/client_service.pb.h"
 #include "affskel/v1/types.pb.h"
 #include "affskel/v1/worker_service.pb.h"
 #include "wire/words.h"
@@ -15,6 +17,16 @@ const prometheus::Histogram::BucketBoundaries kCallSeconds = {0.0005, 0.001, 0.0
 
 // Tasks and stages take from milliseconds to days.
 const prometheus::Histogram::BucketBoundaries kTaskSeconds = {0.01, 0.1, 1, 10, 60, 600, 3600, 21600, 86400};
+
+/// The methods of both services.
+std::vector<std::string> methods() {
+  std::vector<std::string> names;
+  for (const auto* file : {v1::SubmitJobRequest::descriptor()->file(), v1::TaskKind_descriptor()->file()}) {
+    const auto* service = file->service(0);
+    for (int i = 0; i < service->method_count(); ++i) names.push_back(service->method(i)->name());
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -76,6 +88,9 @@ Metrics::Metrics()
               .Add({}, kCallSeconds)) {
   // From 0 on: what appears with its first event shows no rate for it.
   submitted_.Add({});
+  for (const std::string& method : methods()) {
+    for (const char* fault : {"INTERNAL", "DATA_LOSS"}) calls_.Add({{"method", method}, {"code", fault}});
+  }
   for (const std::string& kind : wire::words(*v1::TaskKind_descriptor())) {
     granted_.Add({{"kind", kind}});
     lost_.Add({{"kind", kind}});

@@ -367,6 +367,8 @@ ParsedOptions parse_options(int argc, char** argv) {
       throw CLI::ValidationError("--report-interval-ms", "must be less than --lease-ms");
     }
   } catch (const CLI::ParseError& error) {
+    if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr)
+      std::cerr << app.get_config_ptr()->as<std::string>() << ": ";
     std::ostringstream help;
     const bool asked_for = app.exit(error, help, std::cerr) == 0;
     parsed.exit_code =

@@ -36,6 +36,7 @@ std::map<std::string, std::int64_t> job_figures(Database& db) {
 
 std::map<std::string, std::int64_t> lease_figures(Database& db) {
   std::map<std::string, std::int64_t> leases;
+  for (const std::string& kind : wire::words(*v1::TaskKind_descriptor())) leases[kind] = 0;
   Statement row = db.query("SELECT kind, count(*) FROM tasks WHERE state = 'leased' GROUP BY kind");
   while (row.step()) leases[row.text(0)] = row.integer(1);
   return leases;

@@ -21,7 +21,8 @@ import jobs
 engine.enter()
 SOURCES, GUIDE, PROGRAMS, STORAGE = engine.paths(4)
 
-NAME = "lab.example.org"
+# As the DNS has it: containers reach it, too, and need not ask for another address, which nobody here would answer.
+NAME, ADDRESSES = "lab.example.org", ("192.0.2.7", "2001:db8::7")
 SERVER, WORKERS = "affskel_server_1", ("affskel_worker_1", "affskel_worker_2")
 LONG = ("--points", "300000", *jobs.DIRECTIONS)
 
@@ -46,7 +47,9 @@ class Compose(unittest.TestCase):
         shutil.copytree(SOURCES, cls.place)
         # In this mount namespace alone.
         hosts = place / "hosts"
-        hosts.write_text(f"127.0.0.1 localhost {NAME}\n")
+        hosts.write_text("\n".join(("127.0.0.1 localhost", *(f"{address} {NAME}" for address in ADDRESSES), "")))
+        for address in ADDRESSES:
+            subprocess.run(["ip", "address", "add", address, "dev", "lo"], check=True)
         subprocess.run(["mount", "--bind", hosts, "/etc/hosts"], check=True)
         cls.settings = cls.engine.environment | engine.bare_environment(
             PATH=f"{PROGRAMS}:{os.environ['PATH']}", HOME=str(place), CONTAINERS_CONF=cls.engine.environment["CONTAINERS_CONF"],
@@ -165,6 +168,7 @@ class Compose(unittest.TestCase):
         options = ("--points", "330000", *jobs.DIRECTIONS)
         job, watch = self.person().half_done(*options)
         backup, restore = blocks("Backup and restore")
+        (self.place / "affskel-backup.db").write_text("yesterday's")
         self.type(backup)
         done = self.directions_done(job)
         self.type(restore)
@@ -196,6 +200,36 @@ class Compose(unittest.TestCase):
         self.assertEqual(self.engine.inspect("affskel_worker_4")["State"]["ExitCode"], 0)
         self.type(remove)
         self.assertEqual(self.engine.podman("container", "exists", "affskel_worker_4", check=False)[1], 1)
+
+    def test_B_certificates(self):
+        renew, own = blocks("Certificates")
+        trust = blocks("People")[0].splitlines()[2]
+        self.assertIn("> ca.pem", trust)
+        old = (self.place / "ca.pem").read_bytes()
+        worker = self.engine.process(WORKERS[0])
+        self.type(renew)
+        self.type(trust)
+        self.assertNotEqual((self.place / "ca.pem").read_bytes(), old)
+        self.do_a_job("5000")
+        self.assertEqual(self.engine.process(WORKERS[0]), worker)
+        # One that an authority has signed, for the name alone by which people know the server.
+        request = ("openssl", "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes")
+        for words in ((*request, "-x509", "-subj", "/CN=authority", "-keyout", "authority.key", "-out", "ca.pem"),
+                      (*request, "-subj", "/CN=lab", "-addext", f"subjectAltName=DNS:{NAME}", "-keyout", "server.key",
+                       "-out", "request.pem"),
+                      ("openssl", "x509", "-req", "-in", "request.pem", "-copy_extensions", "copy", "-CA", "ca.pem",
+                       "-CAkey", "authority.key", "-days", "2", "-out", "server.pem")):
+            self.engine.run(*words, cwd=self.place)
+        self.type(own)
+        self.do_a_job("6000")
+        self.until_healthy("affskel_web_1")
+        self.test_4_page()
+
+    def do_a_job(self, points):
+        """By workers that have to connect anew."""
+        self.engine.podman("restart", "--time", "20", SERVER)
+        self.until_healthy(SERVER)
+        self.client("submit", "torus.off", "--points", points, "--wait")
 
     def workers(self):
         admin = self.engine.podman("exec", SERVER, "affskel-client", "--json", "--server",

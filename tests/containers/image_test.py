@@ -120,12 +120,17 @@ class Image(unittest.TestCase):
             token = ("affskel-first-start", "token", "/var/lib/affskel/token")
             here = ("--volume", f"{place}:/var/lib/affskel")
             made = {}
+            for name in ("server.pem.new", "server.key.new", "token.new"):  # of a start that was killed
+                (Path(place) / name).touch()
+                os.chown(Path(place) / name, 760, 760)
+                (Path(place) / name).chmod(0o600)
             for _ in range(2):
                 for words in (certificate, token):
                     self.engine.podman("run", "--rm", *CONFINED, *here, IMAGE, *words)
                 files = {name: (Path(place) / name).read_bytes() for name in ("server.pem", "server.key", "token")}
                 made = made or files
                 self.assertEqual(files, made)
+            self.assertEqual(list(Path(place).glob("*.new")), [])
             self.assertEqual({path.stat().st_mode & 0o77 for path in Path(place).iterdir() if path.is_file()}, {0})
             names = self.engine.run("openssl", "x509", "-in", f"{place}/server.pem", "-noout", "-ext", "subjectAltName")
             self.assertIn("DNS:lab.example.org, IP Address:192.0.2.7", names)

@@ -128,6 +128,40 @@ class Relations(unittest.TestCase):
             self.assertGreaterEqual(spec["terminationGracePeriodSeconds"], least)
 
 
+class Guide(unittest.TestCase):
+    """The section on Kubernetes, as far as it can be typed without a cluster."""
+
+    def setUp(self):
+        text = re.search(r"^## Kubernetes\n(.*?)^## ", (DEPLOY / "README.md").read_text(), re.M | re.S)[1]
+        self.text, self.blocks = text, re.findall(r"^```sh\n(.*?)^```", text, re.M | re.S)
+
+    def test_certificate_has_the_names_by_which_the_server_is_called(self):
+        names = re.search(r"subjectAltName=(\S+)", self.blocks[0])[1].split(",")
+        self.assertIn("port-forward", self.text)
+        self.assertLessEqual({f"DNS:{name}" for name in (*by_kind("Service"), "lab.example.org", "localhost")}, set(names))
+
+    def test_secrets_are_written_for_their_owner_alone(self):
+        self.assertLess(self.blocks[0].index("umask 077\n"), self.blocks[0].index("openssl"))
+
+    def test_backup_may_be_there_from_yesterday(self):
+        self.assertRegex(self.text, r"affskel-server backup [^`]* --force`")
+
+    @unittest.skipUnless(manifests.KUBECTL, "SKIPPED: no kubectl (package kubernetes-client)")
+    def test_restore_lets_the_server_sleep_on_its_volume(self):
+        patch = re.search(r"kubectl -n affskel patch statefulset affskel-server -p '(.*?)'", self.blocks[2], re.S)[1]
+        (server,) = by_kind("StatefulSet").values()
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            json.dump(server, file)
+            file.flush()
+            patched = json.loads(manifests.kubectl("patch", "--local", "-o", "json", "-f", file.name, "-p", patch))
+        kubernetes_schema.check(patched)
+        (container,) = patched["spec"]["template"]["spec"]["containers"]
+        (before,) = server["spec"]["template"]["spec"]["containers"]
+        self.assertEqual(container["command"], ["sleep", "infinity"])
+        self.assertEqual(set(before) - set(container), {"args", "startupProbe", "readinessProbe", "livenessProbe"})
+        self.assertEqual(container["volumeMounts"], before["volumeMounts"])
+
+
 class Programs(unittest.TestCase):
     def options(self, program, *command):
         told = subprocess.run([PROGRAMS / program, *command, "--help"], check=True, stdout=subprocess.PIPE, text=True)
@@ -163,6 +197,17 @@ class Programs(unittest.TestCase):
             program, *words = services[name]["command"]
             known = self.options(program) | (self.options(program, "web") if name == "web" else set())
             self.assertLessEqual({word for word in words if word.startswith("-")}, known, name)
+
+    def test_image_is_made_of_all_that_the_packages_take(self):
+        copied = re.findall(r"(?m)^COPY (.*) \S+$", (DEPLOY / "containers/Containerfile").read_text())
+        copied = {f"{place}/" for place in " ".join(copied).split()}
+        packaging = (DEPLOY / "packaging/CMakeLists.txt").read_text()
+        for variable, place in re.findall(r"set\((\w+) (\$\{PROJECT_SOURCE_DIR\}\S+)\)", packaging):
+            packaging = packaging.replace(f"${{{variable}}}", place)
+        taken = set(re.findall(r"\$\{PROJECT_SOURCE_DIR\}/([^\s)]+)", packaging))
+        self.assertGreater(len(taken), 5)
+        for file in taken:
+            self.assertTrue(any(f"{file}/".startswith(place) for place in copied), file)
 
     def test_options_that_nobody_knows_are_found(self):
         with self.assertRaises(AssertionError):

@@ -1,4 +1,5 @@
-"""The rules and the dashboard of deploy/monitoring ask for metrics and labels that a real server has.
+"""The rules and the dashboard of deploy/monitoring ask for metrics and labels that a real server has, at any time, and the
+rules are tried with series that it has.
 
 Usage: names_test.py MONITORING-FOLDER BINARY-FOLDER
 """
@@ -23,11 +24,18 @@ def exposition(address):
 
 
 def samples(text):
-    """Names of metrics and, of each, the labels that it has; None where it has no value at the moment."""
-    found = dict.fromkeys(re.findall(r"^# TYPE (affskel_\w+) ", text, re.M))
+    """Names of metrics that have a value and, of each, its series: their labels."""
+    found = {}
     for name, labels in re.findall(r"^(affskel_\w+)(?:\{(.*)\})? ", text, re.M):
-        found[name] = (found.get(name) or set()) | set(re.findall(r"(\w+)=\"", labels))
+        found.setdefault(name, []).append(dict(re.findall(r"(\w+)=\"([^\"]*)\"", labels)))
     return found
+
+
+def tried():
+    """Series that promtool gives to the rules."""
+    text = pathlib.Path(__file__).with_name("affskel.rules.test.yml").read_text(encoding="utf-8")
+    for name, labels in re.findall(r"series: '(affskel_\w+)\{(.*)\}'", text):
+        yield name, {key: value for key, value in re.findall(r"(\w+)=\"([^\"]*)\"", labels) if key not in FOREIGN}
 
 
 def expressions():
@@ -73,9 +81,9 @@ def main():
     for expression in asked:
         names = set(re.findall(r"affskel_\w+", expression))
         missing += [f"{name} in: {expression}" for name in names - known.keys()]
-        there = [known.get(name) for name in names]
-        if None not in there:
-            missing += [f"label {label} in: {expression}" for label in labels_of(expression) - set().union(*there)]
+        there = set().union(*(series for name in names for series in known.get(name, [])))
+        missing += [f"label {label} in: {expression}" for label in labels_of(expression) - there]
+    missing += [f"{name} {labels} in the rules' test" for name, labels in tried() if labels not in known.get(name, [])]
     if missing or len(asked) < 30:
         raise SystemExit("\n".join([*missing, f"{len(asked)} expressions read"]))
     print(f"{len(asked)} expressions, {len(known)} metrics")

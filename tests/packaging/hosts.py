@@ -26,7 +26,8 @@ class Unit:
         self.file = root / "lib/systemd/system" / (f"{base}@.service" if self.instance else f"{base}.service")
         self.credentials = f"/run/credentials/{name}.service"
         self.settings = {}
-        for line in self.file.read_text().splitlines():
+        drop_ins = sorted((root / f"etc/systemd/system/{name}.service.d").glob("*.conf"))
+        for line in "".join(file.read_text() for file in (self.file, *drop_ins)).splitlines():
             if match := re.match(r"(\w+)=(.*)", line):
                 value = match[2].replace("%i", self.instance).replace("%d", self.credentials)
                 self.settings.setdefault(match[1], []).append(value)

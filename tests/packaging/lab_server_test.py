@@ -6,6 +6,7 @@ import os
 import re
 import shlex
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -62,6 +63,8 @@ class LabServer(unittest.TestCase):
             shutil.copyfile(source, target)
             shutil.chown(target, *host.ids(user))
             return ""
+        if words[0] == "systemctl" and words[1] == "daemon-reload":
+            return self.type(host, block.partition("\n")[2])
         if words[0] == "systemctl":
             if words[-1] in host.services:
                 host.stop(words[-1])
@@ -127,25 +130,79 @@ class LabServer(unittest.TestCase):
         self.assertIn("/etc/ssl/nothing.pem", said)
 
     def test_6_upgrade_keeps_configuration_and_jobs(self):
-        backup, install = blocks("Upgrade")[0].splitlines()
-        self.server.run(backup)
-        before = (self.server.root / "etc/affskel/server.conf").read_text()
-        # The same version, so it takes a word more than the guide has.
-        self.server.run(install.replace("install -y", "install -y --reinstall"), cabled=False)
-        self.assertEqual((self.server.root / "etc/affskel/server.conf").read_text(), before)
+        (upgrade,) = blocks("Upgrade")
+        configuration = self.server.root / "etc/affskel/server.conf"
+        before = configuration.read_text()
+        for version in ("9.1", "9.2"):
+            self.newer_packages(version)
+            self.server.run(upgrade, cabled=False)
+            self.assertEqual(configuration.read_text(), before)
+            self.assertIn(f"## Of {version}.", configuration.with_name("server.conf.dpkg-dist").read_text())
+            self.assertIn(version, self.server.run("dpkg-query -W affskel-server affskel-worker"))
         self.type(self.server, f"systemctl restart {SERVER}")
         self.assertRegex(self.client.run("affskel-client status @last", "ada"), r"(?m)^state: +done$")
+
+    def newer_packages(self, version):
+        """Packages of this version in the place of those that are there; the server's has an option more."""
+        for package in (self.server.root / "root").glob("affskel-*.deb"):
+            package.unlink()
+        for package in PACKAGES.glob("*.deb"):
+            with tempfile.TemporaryDirectory() as place:
+                subprocess.run(["dpkg-deb", "-R", package, f"{place}/tree"], check=True)
+                control = Path(place) / "tree/DEBIAN/control"
+                control.write_text(re.sub(r"(?m)^Version: .*", f"Version: {version}", control.read_text()))
+                configuration = Path(place) / "tree/etc/affskel/server.conf"
+                if configuration.exists():
+                    configuration.write_text(f"{configuration.read_text()}\n## Of {version}.\n")
+                subprocess.run(["dpkg-deb", "-b", f"{place}/tree", self.server.root / "root"], check=True,
+                               stdout=subprocess.DEVNULL)
 
     def test_7_backup_comes_back(self):
         backup, stop, *restore = blocks("Backup and restore")
         self.server.run(backup)
+        self.client.run("affskel-client submit torus.off --points 21500 --wait", "ada")
+        self.server.run(backup)  # the next day's, in its place
         self.client.run("affskel-client submit torus.off --points 22000 --wait", "ada")
         for block in (stop, *restore):
             self.type(self.server, block)
         jobs = self.client.run("affskel-client list", "ada")
-        self.assertEqual(jobs.count("done"), 2, jobs)  # without the one after the backup
+        self.assertEqual(jobs.count("done"), 3, jobs)  # without the one after the second backup
         self.client.run("affskel-client submit torus.off --points 22000 --wait", "ada")
         self.server.run("rm -r /var/lib/affskel.away /var/backups/affskel.db")
+
+    def test_8_a_new_certificate_cuts_nobody_off(self):
+        _, make, give, take, _, _ = blocks("Tokens and certificates")
+        self.type(self.server, make)
+        self.type(self.worker, give)
+        self.type(self.client, give.replace("/etc/affskel/ca.pem", "~/.config/affskel/ca.pem"), "ada")
+        self.type(self.server, take)
+        # A client that knows the new one alone gets in once the server has taken it.
+        self.client.run("sed '1,/END/d' ~/.config/affskel/ca.pem > next.pem", "ada")
+        self.client.run("until affskel-client --tls-ca next.pem health; do :; done", "ada")
+        self.client.run("affskel-client submit torus.off --points 23000 --wait", "ada")
+        # The running worker comes back to a server that has a certificate that it did not know when it started.
+        self.type(self.server, f"systemctl restart {SERVER}")
+        self.client.run("affskel-client submit torus.off --points 24000 --wait", "ada")
+
+    def test_8_host_that_computes_shows_a_certificate(self):
+        *_, install, restart = blocks("Tokens and certificates")
+        self.server.run("openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -subj /CN=lab "
+                        "-keyout lab.key -out /etc/affskel/tls/clients.pem")
+        for host, place, user in ((self.worker, "etc/affskel/workers", "root"), (self.client, "home/ada", "ada")):
+            for source, name in (("root/lab.key", "lab.key"), ("etc/affskel/tls/clients.pem", "lab.pem")):
+                shutil.copyfile(self.server.root / source, host.root / place / name)
+                (host.root / place / name).chmod(0o600)
+                shutil.chown(host.root / place / name, *host.ids(user))
+        self.worker.stop(WORKER)  # else it would leave when it is refused
+        self.server.run("sed -i 's|^#tls-client-ca = |tls-client-ca = |' /etc/affskel/server.conf")
+        self.type(self.server, f"systemctl restart {SERVER}")
+        for block in (install, restart):
+            self.type(self.worker, block)
+        self.assertIn("code=7", self.client.run("c=0; affskel-client list || c=$?; echo code=$c", "ada"))
+        self.client.run("affskel-client --client-cert lab.pem --client-key lab.key submit torus.off --points 25000 --wait",
+                        "ada")
+        self.server.run("sed -i 's|^tls-client-ca = |#tls-client-ca = |' /etc/affskel/server.conf")
+        self.type(self.server, f"systemctl restart {SERVER}")
 
     def test_8_revoked_token_is_worthless(self):
         self.type(self.server, blocks("Tokens and certificates")[0])
@@ -158,6 +215,9 @@ class LabServer(unittest.TestCase):
 
     def test_A_purge_leaves_what_it_says(self):
         remove, purge = blocks("Remove")[0].splitlines()
+        # As systemctl enable affskel-worker@lab has it.
+        self.server.run("cd /etc/systemd/system/multi-user.target.wants; "
+                        "ln -s /lib/systemd/system/affskel-worker@.service affskel-worker@lab.service")
         self.server.run(remove)
         self.assertTrue((self.server.root / "etc/affskel/server.conf").exists())
         self.assertFalse((self.server.root / "usr/bin/affskel-server").exists())

@@ -63,13 +63,15 @@ class Packages(unittest.TestCase):
 
     def test_server_holds_program_unit_and_configuration(self):
         self.assertEqual(self.files("affskel-server"), self.documents("affskel-server") | {
-            "usr/bin/affskel-server", "lib/systemd/system/affskel-server.service", "etc/affskel/server.conf"})
+            "usr/bin/affskel-server", "lib/systemd/system/affskel-server.service", "etc/affskel/server.conf",
+            *(f"usr/share/doc/affskel-server/examples/monitoring/{file}" for file in
+              ("affskel.rules.yml", "dashboard.json"))})
 
     def test_worker_holds_program_unit_and_examples(self):
         self.assertEqual(self.files("affskel-worker"), self.documents("affskel-worker") | {
             "usr/bin/affskel-worker", "lib/systemd/system/affskel-worker@.service",
             *(f"usr/share/doc/affskel-worker/examples/{file}" for file in
-              ("worker.conf", "slurm/workers.sbatch", "slurm/workers.conf", "slurm/keep-workers"))})
+              ("worker.conf", "client-certificate.conf", "slurm/workers.sbatch", "slurm/workers.conf", "slurm/keep-workers"))})
         self.assertIn("etc/affskel/workers", members("affskel-worker"))
 
     def test_client_holds_program_and_what_helps_to_use_it(self):

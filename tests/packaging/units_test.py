@@ -83,11 +83,11 @@ class Configuration(unittest.TestCase):
             self.assertEqual(code, 0, log)
             self.assertIn("event=metrics", log)
 
-    def test_misspelt_line_is_refused_with_its_name(self):
+    def test_misspelt_line_is_refused_with_its_name_and_the_files(self):
         with tempfile.TemporaryDirectory(prefix="affskel-units-") as place:
             code, log = self.serve('qota = ["queued-jobs=1"]\n', Path(place))
             self.assertEqual(code, 2)
-            self.assertIn("qota", log)
+            self.assertRegex(log, rf"(?m)^{place}/server.conf: .*qota")
 
 
 if __name__ == "__main__":

@@ -59,6 +59,12 @@ TEST(MetricsTest, WhatHasNotHappenedYetIsZero) {
   for (const char* state : {"done", "failed", "cancelled"})
     EXPECT_EQ(value_of(seen, "affskel_jobs_ended_total", {{"state", state}}), 0) << state;
   EXPECT_EQ(value_of(seen, "affskel_jobs_submitted_total"), 0);
+  // Of every method, for the first of these is one too many.
+  for (const char* method : {"SubmitJob", "FetchArtifact", "LeaseTask", "FetchInput"}) {
+    for (const char* code : {"INTERNAL", "DATA_LOSS"}) {
+      EXPECT_EQ(value_of(seen, "affskel_calls_total", {{"method", method}, {"code", code}}), 0) << method;
+    }
+  }
 }
 
 TEST(MetricsTest, ManyOwnersDoNotFillTheMemoryOfWhoeverCollects) {

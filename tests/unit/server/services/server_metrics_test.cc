@@ -83,6 +83,7 @@ TEST_F(ServerMetricsTest, TellTheQueueByPriority) {
   EXPECT_EQ(value_of(seen, "affskel_queue_jobs", {{"priority", "7"}}), 2);
   EXPECT_EQ(value_of(seen, "affskel_queue_tasks", {{"priority", "2"}}), 1);
   EXPECT_EQ(value_of(seen, "affskel_queue_jobs", {{"priority", "5"}}), 0);
+  EXPECT_EQ(value_of(seen, "affskel_leases", {{"kind", "prepare"}}), 0) << "none is a number, too";
   ASSERT_TRUE(poll(0).has_lease());
   seen = scrape();
   EXPECT_EQ(value_of(seen, "affskel_queue_jobs", {{"priority", "7"}}), 1);

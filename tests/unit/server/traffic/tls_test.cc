@@ -88,6 +88,22 @@ TEST_F(TlsTest, ReplacedCertificatesAreUsedWithoutARestart) {
   EXPECT_EQ(call(trusting(authority_)).error_code(), grpc::UNAVAILABLE);
 }
 
+TEST_F(TlsTest, ClientsTakeReplacedFilesWithoutARestart) {
+  options_.tls.client_ca = authority_.file();
+  start();
+  add("ada", v1::ROLE_USER);
+  stranger_.sign("own");
+  wire::AccessFiles files = trusting(stranger_, "own");
+  files.tls_ca = file("ca.pem");
+  spit("ca.pem", tests::read_file(stranger_.file()));
+  const auto stub = v1::ErosionService::NewStub(tcp("ada", files));
+  v1::ServerInfo response;
+  ASSERT_EQ(info(*stub, &response).error_code(), grpc::UNAVAILABLE);
+  spit("ca.pem", tests::read_file(stranger_.file()) + tests::read_file(authority_.file()));
+  authority_.sign("own");
+  while (!info(*stub, &response).ok()) std::this_thread::yield();
+}
+
 TEST_F(TlsTest, FilesThatAreNoGoodAreNamed) {
   spit("rubbish.pem", "rubbish");
   const auto error_with = [&](const net::TlsOptions& tls) {
