@@ -28,6 +28,7 @@ constexpr int kDefaultWidth = 80;
 constexpr int kMaxBar = 40;
 constexpr std::chrono::seconds kMinSilence{1};  // between plain lines of one stage
 constexpr double kSmoothing = 1.5;              // seconds over which the rate forgets
+constexpr double kLeastMeasured = 1;  // seconds: what is done comes in lots, which tell no rate alone
 
 int progress_width() {
   const unsigned columns = terminal_columns(STDERR_FILENO);
@@ -124,16 +125,16 @@ double ProgressView::measure(const v1::Job& job) {
     last_time_.reset();
     rate_ = 0;
   }
-  if (last_time_ && done >= last_done_) {
-    const double seconds = std::chrono::duration<double>(now - *last_time_).count();
-    const double gained = double(done - last_done_);
-    if (seconds > 0) {
-      const double weight = rate_ > 0 ? 1 - std::exp(-seconds / kSmoothing) : 1;
-      rate_ += weight * (gained / seconds - rate_);
-    }
+  const bool follows = last_time_ && done >= last_done_;
+  const double seconds = follows ? std::chrono::duration<double>(now - *last_time_).count() : 0;
+  if (seconds >= kLeastMeasured) {
+    const double weight = rate_ > 0 ? 1 - std::exp(-seconds / kSmoothing) : 1;
+    rate_ += weight * (double(done - last_done_) / seconds - rate_);
   }
-  last_time_ = now;
-  last_done_ = done;
+  if (!follows || seconds >= kLeastMeasured) {
+    last_time_ = now;
+    last_done_ = done;
+  }
   last_stage_ = job.stage();
   const bool counts = job.stage() == v1::JOB_STAGE_ERODE || job.stage() == v1::JOB_STAGE_REFINE;
   // What it did before it ended tells nothing any more.

@@ -36,11 +36,12 @@ struct Fetched {
   Destination destination;
   std::string
       artifact;  ///< "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source"
-  std::string unit;                                 ///< what is counted: "point", "triangle" or "byte"
-  std::uint64_t items = 0;                          ///< how many
-  v1::Job job;                                      ///< as the server sent it along
-  std::optional<std::uint64_t> segments = {};       ///< of curves, of a skeleton with triangles
-  std::optional<v1::SkeletonQuality> quality = {};  ///< of a skeleton, or a sheet
+  std::string unit;                            ///< what is counted: "point", "segment", "triangle" or "byte"
+  std::uint64_t items = 0;                     ///< how many
+  v1::Job job;                                 ///< as the server sent it along
+  std::optional<std::uint64_t> segments = {};  ///< of curves, of a skeleton with triangles
+  std::optional<v1::SkeletonQuality> quality =
+      {};  ///< of a skeleton, a sheet, or the curve beside a thickness
   /// Of an eroded solid, mesh units cubed: what the surface encloses, or of points their share of the sample
   /// points times v0.
   std::optional<double> volume = {};

@@ -38,6 +38,10 @@ Notices skeleton_notices(std::uint64_t items, const v1::SkeletonQuality& quality
   return {advice};
 }
 
+Notices skeleton_notices(const v1::TriangleMesh& skeleton, const v1::Job& job) {
+  return skeleton_notices(static_cast<std::uint64_t>(skeleton.xyz_size() / 3), skeleton.quality(), job);
+}
+
 Notices eroded_notices(const v1::TriangleMesh& eroded) {
   if (!eroded.corners().empty()) return {};
   return {warning("EMPTY_ERODED", "the eroded solid is empty: " + eroded.quality().advice())};

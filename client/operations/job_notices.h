@@ -10,8 +10,11 @@
 namespace affskel::client {
 
 /// That a skeleton has no points, with the likely reason and what to try; the advice that its quality holds.
-/// @param items points, triangles and segments that it has.
+/// @param items points that it has.
 Notices skeleton_notices(std::uint64_t items, const v1::SkeletonQuality& quality, const v1::Job& job);
+
+/// Of a sheet or lines; a single vertex is a skeleton, too.
+Notices skeleton_notices(const v1::TriangleMesh& skeleton, const v1::Job& job);
 
 /// That the surface of an eroded solid is empty, and why.
 Notices eroded_notices(const v1::TriangleMesh& eroded);

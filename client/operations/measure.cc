@@ -12,9 +12,7 @@ Measures measure(Session& session, const std::string& job, double threshold) {
   measures.job = header.job();
   for (const auto* branches : {&measures.solid.parts(), &measures.solid.links()})
     for (const v1::SolidPart& branch : *branches) measures.curve_length += branch.length();
-  const v1::TriangleMesh& curve = measures.solid.curve();
-  measures.notices =
-      skeleton_notices(static_cast<std::uint64_t>(curve.xyz_size() / 3), curve.quality(), measures.job);
+  measures.notices = skeleton_notices(measures.solid.curve(), measures.job);
   return measures;
 }
 

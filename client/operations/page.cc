@@ -110,20 +110,18 @@ v1::SkeletonQuality fetch_quality(Session& session, const v1::Job& job, const v1
 Notices fetch_skeleton(Session& session, const ViewSubject& subject, const LatticePoints& lattice,
                        ViewModel& model) {
   const std::string& job = subject.job.id();
-  std::uint64_t items = 0;
   if (model.sheet_is_skeleton) {
     model.sheet = fetch_sheet(session, job, subject.params);
     model.quality = model.sheet.quality();
-    items = static_cast<std::uint64_t>(model.sheet.corners_size() / 3 + model.sheet.segments_size() / 2);
-  } else {
-    const auto divergences = fetch_divergences(session, job, subject.params, lattice.count());
-    model.selection = select_view_points(divergences, model.threshold, kMaxPoints);
-    fetch_view_points(session, subject.job, lattice, divergences, model);
-    model.quality = fetch_quality(session, subject.job, subject.params);
-    items = static_cast<std::uint64_t>(std::count_if(divergences.begin(), divergences.end(),
-                                                     [&](float h) { return double{h} > model.threshold; }));
+    return skeleton_notices(model.sheet, subject.job);
   }
-  return skeleton_notices(items, model.quality, subject.job);
+  const auto divergences = fetch_divergences(session, job, subject.params, lattice.count());
+  model.selection = select_view_points(divergences, model.threshold, kMaxPoints);
+  fetch_view_points(session, subject.job, lattice, divergences, model);
+  model.quality = fetch_quality(session, subject.job, subject.params);
+  const auto items = std::count_if(divergences.begin(), divergences.end(),
+                                   [&](float h) { return double{h} > model.threshold; });
+  return skeleton_notices(static_cast<std::uint64_t>(items), model.quality, subject.job);
 }
 
 // The defects that the mesh had before its repair.

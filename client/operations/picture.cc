@@ -35,6 +35,7 @@ std::array<core::Vec3, 3> lattice_cell(const v1::PreparedSummary& prepared) {
 std::string sheet_text(const v1::TriangleMesh& sheet) {
   const std::string curves = base::counted(sheet.segments_size() / 2, "segment") + " of curves";
   if (sheet.corners().empty() && !sheet.segments().empty()) return curves;
+  if (sheet.corners().empty() && !sheet.xyz().empty()) return base::counted(sheet.xyz_size() / 3, "point");
   const std::string triangles = "sheet of " + base::counted(sheet.corners_size() / 3, "triangle");
   return sheet.segments().empty() ? triangles : triangles + " and " + curves;
 }
@@ -71,9 +72,8 @@ double fetch_skeleton(Session& session, const v1::Job& job, const v1::SkeletonPa
     input.skeleton = fetch_points(session, job, params);
   }
   const v1::SkeletonQuality& quality = sheet ? input.sheet.quality() : input.skeleton.quality();
-  const int items =
-      sheet ? input.sheet.corners_size() / 3 + input.sheet.segments_size() / 2 : input.skeleton.point_size();
-  notices = skeleton_notices(static_cast<std::uint64_t>(items), quality, job);
+  notices = sheet ? skeleton_notices(input.sheet, job)
+                  : skeleton_notices(static_cast<std::uint64_t>(input.skeleton.point_size()), quality, job);
   return quality.threshold();
 }
 
@@ -124,8 +124,7 @@ std::string paint(Session& session, const v1::Job& job, PictureColour colour, Re
                   Notices& notices) {
   v1::ArtifactHeader header;
   const v1::SolidParts solid = fetch_solid_parts(session, job.id(), 0, header);
-  notices = skeleton_notices(static_cast<std::uint64_t>(solid.curve().xyz_size() / 3),
-                             solid.curve().quality(), job);
+  notices = skeleton_notices(solid.curve(), job);
   if (colour == PictureColour::kPart) {
     input.painted = by_part(solid);
     input.sheet = solid.curve();

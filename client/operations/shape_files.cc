@@ -11,6 +11,7 @@
 #include "client/files/write/shape_writer.h"
 #include "client/operations/artifact_calls.h"
 #include "client/operations/artifact_files.h"
+#include "client/operations/job_notices.h"
 #include "client/operations/shape_output.h"
 #include "client/text/job_facts.h"
 #include "client/text/skeleton_text.h"
@@ -141,10 +142,15 @@ Fetched fetch_thickness(Session& session, const FetchRequest& request) {
   ShapeFile shape = core::shape_of(surface_of(parts));
   shape.face_columns = {{"thickness", false, {parts.thickness().begin(), parts.thickness().end()}},
                         {"part", true, {parts.triangle_part().begin(), parts.triangle_part().end()}}};
+  const v1::SkeletonQuality& quality = parts.curve().quality();
   output.write(write_surface, shape, header.job(),
                {"thickness of the solid", "thickness",
-                "from each triangle along its optimal normal to the skeleton of ridge, mesh units"});
-  return {request.destination, "thickness", "triangle", shape.mesh().triangles.size(), header.job()};
+                "from each triangle along its optimal normal to the skeleton of ridge, mesh units" +
+                    (quality.advice().empty() ? "" : "; the skeleton: " + quality.advice())});
+  Fetched fetched{request.destination, "thickness", "triangle", shape.mesh().triangles.size(), header.job()};
+  fetched.quality = quality;
+  fetched.notices = skeleton_notices(parts.curve(), header.job());
+  return fetched;
 }
 
 Fetched fetch_eroded(Session& session, const FetchRequest& request) {

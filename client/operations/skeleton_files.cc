@@ -85,6 +85,12 @@ void require_place_for_curves(const ShapeFile& shape, FileFormat format, const D
                     destination.name());
 }
 
+// What a file has that holds nothing else of a skeleton.
+void count_points(std::size_t vertices, Fetched& fetched) {
+  fetched.unit = "point";
+  fetched.items = vertices;
+}
+
 Fetched fetch_complex(Session& session, const FetchRequest& request, const ChosenSkeleton& chosen,
                       ShapeOutput& output) {
   const v1::FetchArtifactRequest asked = surface_request(request, chosen);
@@ -98,13 +104,16 @@ Fetched fetch_complex(Session& session, const FetchRequest& request, const Chose
                 surface_params_text(asked.surface()), quality});
   Fetched fetched{request.destination, request.artifact, "triangle", surface.shape.mesh().triangles.size(),
                   header.job()};
+  const std::size_t vertices = surface.shape.mesh().points.size();
+  const bool alone = fetched.items == 0 && surface.shape.segments.empty();
+  if (alone && vertices > 0 && output.format() != FileFormat::kStl) count_points(vertices, fetched);
   fetched.notices = lost_curves(surface.shape, output.format(), request.destination.name());
   fetched.segments = holds_curves(output.format()) ? surface.shape.segments.size() : 0;
   if (quality != nullptr) fetched.quality = *quality;
-  if (fetched.items + *fetched.segments == 0)
+  if (vertices == 0)
     fetched.notices.push_back(empty_surface(quality));
   else if (quality != nullptr)
-    append(fetched.notices, skeleton_notices(fetched.items + *fetched.segments, *quality, header.job()));
+    append(fetched.notices, skeleton_notices(vertices, *quality, header.job()));
   return fetched;
 }
 
@@ -165,6 +174,7 @@ Fetched fetch_armature(Session& session, const FetchRequest& request, const Chos
                    &solid.curve().quality()});
   Fetched fetched{request.destination, "curve", "triangle", limbed.surface.triangles.size(), header.job()};
   fetched.quality = solid.curve().quality();
+  fetched.notices = skeleton_notices(solid.curve(), header.job());
   return fetched;
 }
 
@@ -195,8 +205,11 @@ Fetched fetch_curve(Session& session, const FetchRequest& request) {
   output.write(write_curve, curve.shape, header.job(),
                {"curve skeleton", "operator", skeleton_params_text(chosen.params), &curve.quality});
   Fetched fetched{request.destination, "curve", "segment", curve.shape.segments.size(), header.job()};
+  const std::size_t vertices = curve.shape.mesh().points.size();
+  if (fetched.items == 0 || output.format() == FileFormat::kCsv || output.format() == FileFormat::kXyz)
+    count_points(vertices, fetched);
   fetched.quality = curve.quality;
-  fetched.notices = skeleton_notices(curve.shape.mesh().points.size(), curve.quality, header.job());
+  fetched.notices = skeleton_notices(vertices, curve.quality, header.job());
   if (output.format() == FileFormat::kSwc && curve.quality.holes() > 0)
     fetched.notices.push_back(warning(
         "CUT_LOOPS",

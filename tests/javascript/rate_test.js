@@ -52,3 +52,11 @@ test('jobs are told apart, and forgotten', () => {
   assert.equal(rates.of(jobAt(5)), null);
   near(rates.of(jobAt(7, 'b')).perSecond, 7);
 });
+
+test('a pace is told once a second is measured', () => {
+  const rates = new Rates();
+  rates.update(jobAt(0), 0);
+  assert.equal(rates.update(jobAt(500), .001), null);
+  near(rates.update(jobAt(600), 2).perSecond, 300);
+  near(rates.update(jobAt(900), 2.5).perSecond, 300);
+});

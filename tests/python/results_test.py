@@ -304,6 +304,19 @@ class ClosedForms(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             body.skeleton()
+            body.measures()
+
+    def test_a_skeleton_that_is_a_point_is_not_empty(self):
+        ball = client.submit(directory.make("sphere"), points=2000).wait()
+        for ask in (ball.skeleton, ball.skeleton_points, ball.measures, lambda: ball.skeleton("curve")):
+            with self.assertWarnsRegex(affskel.AffskelWarning, "the skeleton of job .*: it is hardly more than a point"):
+                result = ask()
+            if isinstance(result, affskel.Surface):
+                self.assertEqual(result.vertices.shape, (1, 3))
+
+    def test_no_level_is_above_the_volume(self):
+        with self.assertRaisesRegex(affskel.UsageError, "below the solid's volume v0"):
+            box.eroded(volume=1000)
 
 
 class ForPeople(unittest.TestCase):

@@ -3,6 +3,7 @@
 #include "core/chords/chord_sheet.h"
 #include "core/quality/skeleton_advice.h"
 #include "core/quality/skeleton_quality.h"
+#include "core/ridge/local_depth.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
 #include "derive/sheet_barriers.h"
@@ -23,6 +24,23 @@ core::ChordSheet sheet_of(const FinishedField& field, const core::FrameField& in
                            chord_options_for(field, threshold));
 }
 
+void report_stray(const FinishedField& field, const core::ChordSheet& sheet, v1::SkeletonQuality& message) {
+  std::vector<core::Vec3> places;
+  std::vector<std::uint32_t> points;
+  for (const core::ChordShock& shock : sheet.shocks) {
+    places.push_back(shock.position);
+    points.push_back(shock.point);
+  }
+  if (places.empty()) return;
+  const std::vector<float> radius = core::surface_distance(field.lattice());
+  set_advice(
+      core::stray_sheet_advice(field.lattice(), radius, places, points,
+                               {message.components(), message.holes(), message.cavities()},
+                               {message.solid_components(), static_cast<std::uint64_t>(message.solid_genus()),
+                                message.solid_cavities()}),
+      message);
+}
+
 // @param points the shocks, when they are the skeleton's points; null: the sheet's vertices are.
 v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::FrameField& in_frame,
                                      const core::ChordSheet& sheet, double threshold,
@@ -31,8 +49,8 @@ v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::Fra
   const double significance = chord_options_for(field, threshold).significance;
   const double next = core::next_threshold(significance);
   core::SheetQualityOptions options;
-  options.advice_if_empty =
-      core::empty_sheet_advice(field.lattice(), sheet.census, significance, sheet.strong_turn);
+  options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, significance,
+                                                     sheet.strong_turn, field.more_directions());
   if (!barriers.advice.text.empty()) options.advice_if_empty = barriers.advice;
   options.points = points;
   core::Mesh other;
@@ -46,6 +64,7 @@ v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::Fra
       quality_message(core::sheet_quality(field.job().solid(), field.lattice(), mesh_of(sheet), options));
   message.set_threshold(significance);
   if (!sheet.shocks.empty()) message.set_bridges(sheet.bridges);
+  if (!barriers.cut) report_stray(field, sheet, message);
   return message;
 }
 

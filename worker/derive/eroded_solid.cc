@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number_text.h"
+#include "core/base/error.h"
 #include "core/surface/eroded_solid.h"
 #include "derive/messages.h"
 #include "wire/params.h"
@@ -10,11 +11,14 @@
 namespace affskel::worker {
 namespace {
 
-// E of the level, mesh units cubed.
+// E of the level, mesh units cubed; a volume is below v0, as a fraction is below 1.
 double level_of(const FinishedField& field, const v1::ErodedParams& params) {
   const v1::ErodedParams full = wire::canonical(params);
-  return full.level_case() == v1::ErodedParams::kVolume ? full.volume()
-                                                        : full.fraction() * field.job().solid().volume;
+  const double v0 = field.job().solid().volume;
+  if (full.level_case() != v1::ErodedParams::kVolume) return full.fraction() * v0;
+  if (full.volume() < v0) return full.volume();
+  core::refuse("the level of an eroded solid is below the solid's volume v0, " + base::rounded(v0, 4) +
+               ", not " + base::rounded(full.volume(), 4));
 }
 
 // Why an eroded solid is empty.

@@ -1,5 +1,6 @@
 #include "derive/finished_field.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -43,6 +44,11 @@ FinishedField::FinishedField(const PreparedJob& job, FieldValues field, core::Ex
       directions_(std::move(field.directions)),
       frame_directions_(core::frame_directions(job.lattice(), directions_)),
       places_(job.solid(), job.lattice()) {}
+
+std::size_t FinishedField::more_directions() const {
+  const std::size_t triangles = job_.solid().mesh.triangles.size();
+  return job_.directions().size() - std::min(job_.directions().size(), triangles);
+}
 
 core::Vec3 FinishedField::to_mesh(const core::Vec3& frame_point) const {
   const double step = 1 / lattice().spacing;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,8 @@ class FinishedField {
   const core::Lattice& lattice() const { return job_.lattice(); }
   /// Whether its directions are those of the job's set.
   bool over_set() const { return over_set_; }
+  /// How many more directions the job's set has than its mesh triangles; 0 where it has fewer.
+  std::size_t more_directions() const;
   /// The directions that the values name as unit normals in the lattice's frame.
   const core::DirectionSet& frame_directions() const { return frame_directions_; }
   /// Per sample point, by index; kNoDirection of FieldValue without one.

@@ -57,8 +57,9 @@ v1::SkeletonPoints operator_skeleton(const FinishedField& field, const v1::Skele
     message.add_divergence(kept[i].divergence);
   }
   field.throw_if_stopped();
-  *message.mutable_quality() = quality_message(core::skeleton_quality(
-      field.job().solid(), field.lattice(), field.optimal(), divergence, {which, threshold}));
+  *message.mutable_quality() =
+      quality_message(core::skeleton_quality(field.job().solid(), field.lattice(), field.optimal(),
+                                             divergence, {which, threshold, field.more_directions()}));
   message.mutable_quality()->set_threshold(threshold);
   return message;
 }

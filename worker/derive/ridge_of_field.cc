@@ -53,6 +53,17 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   set_advice(core::bare_solid_advice(field_.lattice(), basis_.radius, places, points), message);
 }
 
+void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, std::optional<double> threshold,
+                                v1::SkeletonQuality& message) {
+  if (!message.advice().empty() || sheet.vertices.empty()) return;
+  const auto on_ridge =
+      std::count_if(sheet.vertices.begin(), sheet.vertices.end(), [](const core::SheetVertex& vertex) {
+        return vertex.kind == core::SkeletonKind::kRidge || vertex.kind == core::SkeletonKind::kCurve;
+      });
+  const double share = static_cast<double>(on_ridge) / static_cast<double>(sheet.vertices.size());
+  set_advice(core::little_ridge_advice(share, threshold), message);
+}
+
 void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {
   for (const core::SheetVertex& vertex : skeleton.vertices) {
     message.add_point(vertex.point);

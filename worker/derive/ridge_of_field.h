@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "affskel/v1/types.pb.h"
 #include "core/ridge/ridge_sheet.h"
 #include "derive/finished_field.h"
@@ -23,6 +25,11 @@ class RidgeOfField {
   /// the solid, so that the skeleton lacks or adds something.
   /// @param cut whether parts of the sheet were asked to be left out: then it may be small on any lattice.
   void report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message, bool cut = false) const;
+
+  /// That hardly any of the sheet is ridge, where there is no other advice.
+  /// @param threshold of the ridge, if it is that of the skeleton.
+  static void report_ridge(const core::RidgeSheet& sheet, std::optional<double> threshold,
+                           v1::SkeletonQuality& message);
 
  private:
   const FinishedField& field_;

@@ -213,7 +213,7 @@ class Job:
         request.surface.min_barrier = 0.0 if min_barrier is None else number_of(min_barrier, "min_barrier")
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         surface = surface_of(message)
-        self._warn_if_empty("surface of the skeleton", len(surface), message.quality)
+        self._warn_of_skeleton("surface of the skeleton", len(surface.vertices), message.quality)
         options = _skeleton_options(operator, threshold)
         for option, value in (("--alpha", alpha), ("--min-barrier", min_barrier)):
             options += [] if value is None else [option, repr(float(value))]
@@ -231,7 +231,7 @@ class Job:
             request.skeleton.CopyFrom(chosen)
         message = types.SkeletonPoints.FromString(self._fetched(request, timeout))
         points = points_of(message)
-        self._warn_if_empty("skeleton", len(points), message.quality)
+        self._warn_of_skeleton("skeleton", len(points), message.quality)
         return self._saveable(points, "skeleton", self.id, "--as", "points", *_skeleton_options(operator, threshold))
 
     def divergence(self, operator: Optional[str] = None, *, timeout: Optional[float] = None) -> Floats:
@@ -280,7 +280,9 @@ class Job:
         """
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_PARTS,
                                                skeleton=skeleton_params("curve", threshold))
-        measures = measures_of(types.SolidParts.FromString(self._fetched(request, timeout)))
+        message = types.SolidParts.FromString(self._fetched(request, timeout))
+        measures = measures_of(message)
+        self._warn_of_skeleton("skeleton", len(measures.curve.vertices), message.curve.quality)
         options = _skeleton_options(None, threshold)
         self._saveable(measures.curve, "fetch", self.id, "curve", *options)
         self._saveable(measures.surface, "fetch", self.id, "thickness", *options)
@@ -362,11 +364,17 @@ class Job:
     def _fetched(self, request: service.FetchArtifactRequest, timeout: Optional[float]) -> bytes:
         return self._session.fetch(request, timeout)[1]
 
+    def _warn_of_skeleton(self, what: str, count: int, quality: types.SkeletonQuality) -> None:
+        if count == 0:
+            self._warn(f"the {what} of job {self.id} is empty", quality)
+        elif quality.advice:
+            self._warn(f"the skeleton of job {self.id}", quality)
+
     def _warn_if_empty(self, what: str, count: int, quality: types.SkeletonQuality) -> None:
-        if count > 0:
-            return
-        advice = f": {quality.advice}" if quality.advice else ""
+        if count == 0:
+            self._warn(f"the {what} of job {self.id} is empty", quality)
+
+    def _warn(self, message: str, quality: types.SkeletonQuality) -> None:
+        message += f": {quality.advice}" if quality.advice else ""
         to_try = " or ".join(f"{setting.name}={_argument(setting.value)}" for setting in quality.to_try)
-        if to_try:
-            advice += f" Try {to_try}"
-        warnings.warn(f"the {what} of job {self.id} is empty{advice}", AffskelWarning, stacklevel=3)
+        warnings.warn(message + (f" Try {to_try}" if to_try else ""), AffskelWarning, stacklevel=4)

@@ -2,6 +2,7 @@
 import { progressOf } from './text.js';
 
 const kForgets = 3; // seconds
+const kLeastMeasured = 1; // seconds: what is done comes in lots, which tell no rate alone
 
 /** By job. */
 export class Rates {
@@ -16,8 +17,9 @@ export class Rates {
   update(job, now = performance.now() / 1000) {
     const last = this.jobs.get(job.id);
     const { done } = progressOf(job);
+    if (last && done >= last.done && now - last.time < kLeastMeasured) return this.of(job);
     const entry = { time: now, done, perSecond: last ? last.perSecond : 0 };
-    if (last && done >= last.done && now > last.time) {
+    if (last && done >= last.done) {
       const seconds = now - last.time;
       const weight = last.perSecond > 0 ? 1 - Math.exp(-seconds / kForgets) : 1;
       entry.perSecond += weight * ((done - last.done) / seconds - entry.perSecond);

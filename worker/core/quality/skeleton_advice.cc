@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "base/number_text.h"
@@ -21,7 +22,8 @@ namespace {
 // Fewer distinct optimal normals than this cannot follow a curved level surface.
 constexpr std::size_t kFewNormals = 60;
 
-const Setting kMoreDirections{"directions", "triangles+sphere:2000"};
+// How many more directions than the mesh's triangles are advised, of a sheet and of points.
+constexpr std::size_t kMoreOfSheet = 2000, kMoreOfPoints = 1000;
 
 // Fewer sample points than this are less than 10 across a cube.
 constexpr std::uint32_t kFewPoints = 1000;
@@ -36,6 +38,12 @@ constexpr float kShallow = 3;
 // looked at, and this share of them tells.
 constexpr double kBareRadii = 4, kBareSpacings = 3, kMostBare = 0.2;
 constexpr std::size_t kLookedAt = 20000;
+
+// Of the vertices of a skeleton of `ridge`: below this share on a ridge hardly any is.  A lower threshold, by this factor.
+constexpr double kLittleRidge = 0.1, kLowerThreshold = 3;
+
+// A sheet of less than this share of the points of one through a cube is hardly there.
+constexpr double kLittleSheet = 0.1;
 
 // Points of a sheet through a cube of so many points: their number to the power 2/3, rounded up.
 std::size_t points_of_a_sheet(std::size_t points) {
@@ -97,7 +105,13 @@ bool is_stretched(const Lattice& lattice) {
   return false;
 }
 
-Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_turn) {
+void add_on_directions(std::size_t advised, std::size_t more_directions, Advice& advice) {
+  if (more_directions < advised)
+    advice.settings.push_back({"directions", "triangles+sphere:" + std::to_string(advised)});
+}
+
+Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_turn,
+               std::size_t more_directions) {
   Advice advice{"the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
                     " degrees at most, and a skeleton needs " + degrees(strong_turn) + ".",
                 {}};
@@ -108,9 +122,9 @@ Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_
     advice.settings.push_back({"frame", "axis"});
   }
   advice.text +=
-      " The solid may have no other skeleton than its centre, as a ball has; else submit with more "
-      "directions or a smaller spacing.";
-  advice.settings.push_back(kMoreDirections);
+      std::string(" The solid may have no other skeleton than its centre, as a ball has; else submit with ") +
+      (more_directions < kMoreOfSheet ? "more directions or " : "") + "a smaller spacing.";
+  add_on_directions(kMoreOfSheet, more_directions, advice);
   return advice;
 }
 
@@ -121,6 +135,29 @@ Advice with_more_points(const Lattice& lattice, const std::string& why) {
   return {why + " Submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) + ", or with " +
               points + " points.",
           {{"points", points}}};
+}
+
+std::string words(const BettiNumbers& betti) {
+  return base::counted(betti.components, "piece") + ", " + base::counted(betti.holes, "tunnel") + " and " +
+         base::counted(betti.cavities, "void");
+}
+
+// The share of the sample points that lie farther from the skeleton than twice the thickness there, where it is much.
+std::optional<double> bare_share(const Lattice& lattice, std::span<const float> radius,
+                                 std::span<const Vec3> places, std::span<const std::uint32_t> points) {
+  if (places.empty()) return std::nullopt;
+  const PointIndex skeleton(places);
+  const std::size_t step = 1 + lattice.points / kLookedAt;
+  std::size_t looked_at = 0, bare = 0;
+  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+    if (rank % step != 0) return;
+    const auto nearest = skeleton.find(lattice.spacing * Vec3{double(i), double(j), double(k)});
+    const float thick = std::max(radius[rank], radius[points[nearest.number]]);
+    ++looked_at;
+    bare += nearest.distance > lattice.spacing * (kBareRadii * static_cast<double>(thick) + kBareSpacings);
+  });
+  const double share = static_cast<double>(bare) / static_cast<double>(looked_at);
+  return share > kMostBare ? std::optional(share) : std::nullopt;
 }
 
 Advice on_significance(const ShockCensus& census, double significance) {
@@ -137,10 +174,6 @@ Advice on_significance(const ShockCensus& census, double significance) {
 Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
                              const BettiNumbers& solid) {
   if (of_lattice == solid) return {};
-  const auto words = [](const BettiNumbers& betti) {
-    return base::counted(betti.components, "piece") + ", " + base::counted(betti.holes, "tunnel") + " and " +
-           base::counted(betti.cavities, "void");
-  };
   return with_more_points(lattice, "it has the " + words(of_lattice) +
                                        " of the sample points, the solid has " + words(solid) +
                                        ": they are too few for something as thin as what differs.");
@@ -169,44 +202,74 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
 
 Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
                          std::span<const std::uint32_t> points) {
-  if (places.empty()) return {};
-  const PointIndex skeleton(places);
-  const std::size_t step = 1 + lattice.points / kLookedAt;
-  std::size_t looked_at = 0, bare = 0;
-  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-    if (rank % step != 0) return;
-    const auto nearest = skeleton.find(lattice.spacing * Vec3{double(i), double(j), double(k)});
-    const float thick = std::max(radius[rank], radius[points[nearest.number]]);
-    ++looked_at;
-    bare += nearest.distance > lattice.spacing * (kBareRadii * static_cast<double>(thick) + kBareSpacings);
-  });
-  const double share = static_cast<double>(bare) / static_cast<double>(looked_at);
-  if (share <= kMostBare) return {};
+  const std::optional<double> share = bare_share(lattice, radius, places, points);
+  if (!share) return {};
   return {
-      base::rounded(100 * share, 2) +
+      base::rounded(100 * *share, 2) +
           " % of the solid are farther from it than twice the thickness there, for want of a ridge as strong as the "
           "threshold: in walls that are bent, as of a bowl or a mug, E grows up to the hollow side, and has none.",
       {}};
 }
 
+Advice little_ridge_advice(double share, std::optional<double> threshold) {
+  if (share >= kLittleRidge) return {};
+  Advice advice{(share == 0 ? "none" : "only " + base::rounded(100 * share, 2) + " %") +
+                    (threshold ? " of it" : " of the skeleton of ridge behind it") +
+                    " lies on a ridge as strong as the threshold; the rest are ways and membranes, "
+                    "which keep the solid's topology and need not lie in its middle.",
+                {}};
+  if (threshold) {
+    const std::string lower = base::rounded(*threshold / kLowerThreshold, 2);
+    advice.text += " A threshold of " + lower + " may find more.";
+    advice.settings.push_back({"threshold", lower});
+  }
+  return advice;
+}
+
+Advice stray_sheet_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
+                          std::span<const std::uint32_t> points, const BettiNumbers& sheet,
+                          const BettiNumbers& solid) {
+  if (places.empty()) return {};
+  constexpr const char* kOther = " The operator ridge may have more.";
+  if (const std::optional<double> share = bare_share(lattice, radius, places, points)) {
+    return {base::rounded(100 * *share, 2) +
+                " % of the solid are farther from it than twice the thickness there: equal chords of clearly "
+                "different directions are missing." +
+                kOther,
+            {}};
+  }
+  const double whole = static_cast<double>(points_of_a_sheet(lattice.points));
+  if (static_cast<double>(places.size()) < kLittleSheet * whole) {
+    return {"it has only " + base::counted(places.size(), "point") +
+                ", a sheet through the whole solid about " + base::rounded(whole, 2) +
+                ": where a solid is round, equal chords hardly tell one." + kOther,
+            {}};
+  }
+  if (sheet == solid) return {};
+  return {"it has " + words(sheet) + ", the solid " + words(solid) +
+              ": it is torn, or has stray pieces. The operator ridge keeps the solid's.",
+          {}};
+}
+
 Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
                              const std::vector<double>& divergence, ShockOperator shock_operator,
-                             double threshold) {
+                             double threshold, std::size_t more_directions) {
   if (divergence.empty()) return {"there are no sample points.", {}};
   Advice advice = on_threshold(divergence, threshold);
   advice.text.insert(0, std::string(name_of(shock_operator)) + ": ");
   const std::size_t normals = distinct_normals(optimal);
   if (normals < kFewNormals) {
     advice.text += " Only " + base::counted(normals, "direction is", "directions are") +
-                   " the optimum of some point, too few to show shocks well: submit with more.";
-    advice.settings.push_back({"directions", "triangles+sphere:1000"});
+                   " the optimum of some point, too few to show shocks well" +
+                   (more_directions < kMoreOfPoints ? ": submit with more." : ".");
+    add_on_directions(kMoreOfPoints, more_directions, advice);
   }
   add_on_few_points(lattice, advice);
   return advice;
 }
 
 Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
-                          double strong_turn) {
+                          double strong_turn, std::size_t more_directions) {
   if (census.strong > 0) return on_significance(census, significance);
   Advice advice;
   if (census.wide > 0) {
@@ -215,12 +278,12 @@ Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, dou
                   base::rounded(ChordConstants().min_erosion, 3) +
                   " of the volume. Submit with a smaller spacing.";
   } else if (census.candidates > 0) {
-    advice = on_turn(lattice, census, strong_turn);
+    advice = on_turn(lattice, census, strong_turn, more_directions);
   } else {
-    advice = {
-        "nowhere do two different chords have the same volume. Submit with a smaller spacing or more "
-        "directions.",
-        {kMoreDirections}};
+    advice.text =
+        std::string("nowhere do two different chords have the same volume. Submit with a smaller spacing") +
+        (more_directions < kMoreOfSheet ? " or more directions." : ".");
+    add_on_directions(kMoreOfSheet, more_directions, advice);
   }
   add_on_few_points(lattice, advice);
   return advice;

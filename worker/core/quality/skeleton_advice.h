@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,9 +20,10 @@ namespace affskel::core {
 /// there is and a threshold that would keep about as many points as a sheet through the lattice has; that
 /// there are few distinct optimal normals (a box has six); that there are few sample points.
 /// @param divergence H per sample point, none with |H| > threshold.
+/// @param more_directions of the job's set than the mesh has triangles: what was done is not advised.
 Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& optimal,
                              const std::vector<double>& divergence, ShockOperator shock_operator,
-                             double threshold);
+                             double threshold, std::size_t more_directions = 0);
 
 /// The same for the operator `chords`.  One of these:
 /// - there are no two equal chords at all;
@@ -30,8 +34,9 @@ Advice empty_skeleton_advice(const Lattice& lattice, const OptimalDirections& op
 /// - only pieces below the significance; then it names one that keeps the heaviest.
 /// @param census of a sheet without shocks.
 /// @param significance that it was made with. @param strong_turn that was applied.
+/// @param more_directions see empty_skeleton_advice().
 Advice empty_sheet_advice(const Lattice& lattice, const ShockCensus& census, double significance,
-                          double strong_turn);
+                          double strong_turn, std::size_t more_directions = 0);
 
 /// The same for a sheet of either that a least barrier has emptied: names the greatest one that keeps a
 /// triangle or a segment.
@@ -57,5 +62,18 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
 /// @param points the sample point of each.
 Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
                          std::span<const std::uint32_t> points);
+
+/// That hardly any of a skeleton of `ridge` is ridge, so that nearly all of it are ways and membranes, which join what
+/// is found or keep the solid's topology; else nothing.
+/// @param share of its vertices that lie on ridges. @param threshold of these, for a lower one to try; none: it is not to
+///   be chosen.
+Advice little_ridge_advice(double share, std::optional<double> threshold);
+
+/// What is wrong with a sheet of `chords`: that it is not the solid's, where their pieces, tunnels or voids differ, or that
+/// there is hardly any, or none near much of the solid; else nothing.
+/// @param places of its shocks, in the frame. @param points the sample point of each.
+Advice stray_sheet_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
+                          std::span<const std::uint32_t> points, const BettiNumbers& sheet,
+                          const BettiNumbers& solid);
 
 }  // namespace affskel::core

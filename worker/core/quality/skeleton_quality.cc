@@ -84,8 +84,8 @@ SkeletonQuality skeleton_quality(const Solid& solid, const Lattice& lattice, con
   quality.mean_thickness = mean_voxel_thickness(places);
   quality.other_threshold = other_threshold;
   if (places.empty()) {
-    quality.advice =
-        empty_skeleton_advice(lattice, optimal, divergence, options.shock_operator, options.threshold);
+    quality.advice = empty_skeleton_advice(lattice, optimal, divergence, options.shock_operator,
+                                           options.threshold, options.more_directions);
   }
   return quality;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,6 +37,7 @@ struct SkeletonQuality {
 struct SkeletonQualityOptions {
   ShockOperator shock_operator = ShockOperator::kZuckerHummel;  ///< that gave H
   double threshold = base::kZuckerHummelThreshold;              ///< of the skeleton
+  std::size_t more_directions = 0;                              ///< see empty_skeleton_advice()
 };
 
 /// The quality of the skeleton of the points with |H| > threshold.

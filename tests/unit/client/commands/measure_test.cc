@@ -119,7 +119,8 @@ TEST_F(MeasureTest, FetchWritesTheCurveAsAGraph) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.err.find("1 loop cut"), std::string::npos) << outcome.err;
   EXPECT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.stl"}).exit_code, 2);
-  ASSERT_EQ(run({"fetch", "@last", "curve", "-o", dir_ / "curve.csv"}).exit_code, 0);
+  const Outcome vertices = run({"fetch", "@last", "curve", "-o", dir_ / "curve.csv"});
+  EXPECT_NE(vertices.err.find("(curve, 4 points)"), std::string::npos) << vertices.err;
   const std::string table = tests::read_file(dir_ / "curve.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 4);
   EXPECT_NE(table.substr(0, table.find('\n')).find("radius"), std::string::npos) << table;
@@ -163,6 +164,24 @@ TEST_F(MeasureTest, ThicknessIsAColumnOfTriangles) {
   ASSERT_EQ(run({"fetch", "@last", "thickness", "-o", vtp}).exit_code, 0);
   EXPECT_NE(tests::read_file(vtp).find("<CellData Scalars=\"thickness\">"), std::string::npos);
   EXPECT_EQ(run({"fetch", "@last", "thickness", "-o", dir_ / "t.off"}).exit_code, 2);
+  EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+}
+
+// As of a bowl, of whose thickness it makes several times what it is.
+TEST_F(MeasureTest, WhatIsWrongWithTheSkeletonIsToldWithAllThatIsMeasuredByIt) {
+  v1::SolidParts bare = sample_parts();
+  bare.mutable_curve()->mutable_quality()->set_advice("66 % of the solid are farther from it.");
+  service_.artifacts[v1::ARTIFACT_KIND_PARTS] = bare.SerializeAsString();
+  const std::string told = "the skeleton: 66 % of the solid are farther from it.";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"measure", "@last"},
+        {"fetch", "@last", "thickness", "-o", dir_ / "t.ply"},
+        {"fetch", "@last", "curve", "-o", dir_ / "t.glb"},
+        {"render", "@last", "--colour", "thickness", "-o", dir_ / "t.png", "--width", "300"}})
+    EXPECT_NE(run(command).err.find(told), std::string::npos) << command.back();
+  EXPECT_NE(tests::read_file(dir_ / "t.ply").find("mesh units; " + told), std::string::npos);
+  const json document = json::parse(run({"--json", "fetch", "@last", "thickness", "-o", dir_ / "t.vtp"}).out);
+  EXPECT_EQ(document.at("quality").at("advice"), "66 % of the solid are farther from it.");
 }
 
 TEST_F(MeasureTest, PicturesArePaintedByPartAndThickness) {

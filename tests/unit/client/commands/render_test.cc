@@ -65,6 +65,11 @@ TEST_F(ClientTest, RenderAndViewKeepHowTheSolidStands) {
   EXPECT_EQ(tests::read_file(one), tests::read_file(other));
   ASSERT_EQ(run({"view", "@last", "-o", dir_ / "v.html", "--up", "shape"}).exit_code, 0);
   EXPECT_FALSE(service_.job.has_stance());
+  for (const char* command : {"render", "view"})
+    EXPECT_EQ(
+        run({command, "@last", "-o", command == std::string("view") ? other + ".html" : other, "--up", ""})
+            .exit_code,
+        2);
 }
 
 TEST_F(ClientTest, RenderDrawsTheSkeletonThatIsAskedFor) {
@@ -111,6 +116,32 @@ TEST_F(ClientTest, AllShowTheSkeletonOfTheJob) {
       })) << command[0];
     }
   }
+}
+
+// As the centre of a ball: every command that shows it says the same.
+TEST_F(ClientTest, ASkeletonThatIsAPointIsNotEmpty) {
+  v1::TriangleMesh point;
+  for (const double v : {1., 2., 3.}) point.add_xyz(v);
+  for (auto* values : {point.mutable_erosion(), point.mutable_strength(), point.mutable_area()})
+    values->Add(4);
+  point.mutable_quality()->set_advice("it is hardly more than a point.");
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = point.SerializeAsString();
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"render", "@last", "-o", dir_ / "p.png", "--width", "300"},
+        {"skeleton", "@last", "-o", dir_ / "p.vtp"},
+        {"surface", "@last", "-o", dir_ / "p.off"},
+        {"fetch", "@last", "curve", "-o", dir_ / "p.ply"}}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("the skeleton: it is hardly more than a point."), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(outcome.err.find("empty"), std::string::npos) << outcome.err;
+    const bool counted = outcome.err.find(", 1 point)") != std::string::npos;
+    EXPECT_EQ(counted, command[0] != "render") << outcome.err;
+  }
+  const Outcome drawn = run({"--json", "render", "@last", "-o", dir_ / "p.png", "--width", "300"});
+  EXPECT_NE(drawn.out.find("\"1 point (ridge"), std::string::npos) << drawn.out;
 }
 
 TEST_F(ClientTest, RenderOfAnEmptySheetSaysWhy) {

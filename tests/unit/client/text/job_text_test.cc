@@ -305,6 +305,26 @@ TEST_F(ProgressViewTest, ASteadyRateIsMeasuredExactly) {
             "erode: 50.0%, 200/400 directions, 100/s\n");
 }
 
+// What workers did before the first look comes in one lot, a moment after it.
+TEST_F(ProgressViewTest, ARateIsToldOnceASecondIsMeasured) {
+  Console console(out_, err_, {});
+  ProgressView view(console, [this] { return now_; });
+  view.update(eroding(0));
+  now_ += std::chrono::microseconds(400);
+  view.update(eroding(100));
+  now_ += std::chrono::seconds(2);
+  view.update(eroding(200));
+  now_ += std::chrono::milliseconds(300);
+  view.update(eroding(300));
+  now_ += std::chrono::milliseconds(700);
+  view.update(eroding(300));
+  now_ += std::chrono::seconds(1);
+  view.update(eroding(400));
+  EXPECT_EQ(err_.str(),
+            "erode: 0.0%, 0/400 directions\nerode: 50.0%, 200/400 directions, 100/s\n"
+            "erode: 75.0%, 300/400 directions, 100/s\nerode: 100.0%, 400/400 directions, 100/s\n");
+}
+
 TEST_F(ProgressViewTest, TheTimeLeftIsTheServers) {
   v1::Job job = eroding(200);
   job.set_remaining_ms(65000);

@@ -72,6 +72,22 @@ TEST(EmptySkeletonAdvice, SuggestsASmallerSpacingWhenPointsAreFew) {
   EXPECT_FALSE(says(advice, "would keep")) << advice.text;
 }
 
+TEST(EmptySkeletonAdvice, SuggestsNoDirectionsThatTheJobHas) {
+  NormalBlock block({10, 10, 10});
+  const std::vector<double> ones(1000, 1);
+  const OptimalDirections few(1000, 3);
+  const Advice advice =
+      empty_skeleton_advice(block.lattice, few, ones, ShockOperator::kZuckerHummel, 7, 1000);
+  EXPECT_TRUE(says(advice, "Only 1 direction is")) << advice.text;
+  EXPECT_FALSE(says(advice, "submit with more")) << advice.text;
+  EXPECT_FALSE(suggests(advice, "directions", "triangles+sphere:1000"));
+  const Advice sheet = empty_sheet_advice(block.lattice, {7, 0, 0, 0.0625, 0}, 0.005, kStrongTurn, 2000);
+  EXPECT_TRUE(says(sheet, "submit with a smaller spacing")) << sheet.text;
+  EXPECT_TRUE(sheet.settings.empty());
+  EXPECT_TRUE(empty_sheet_advice(block.lattice, {}, 0.005, kStrongTurn, 2000).settings.empty());
+  EXPECT_FALSE(empty_sheet_advice(block.lattice, {}, 0.005, kStrongTurn, 1999).settings.empty());
+}
+
 // Only one point has any H: the suggestion must keep at least that one.
 TEST(EmptySkeletonAdvice, SuggestsAThresholdThatKeepsSomethingWheneverThereIsSomething) {
   NormalBlock block({10, 10, 10});
@@ -188,6 +204,40 @@ TEST(BareSolidAdvice, IsForSolidsFarFromTheirSkeleton) {
   EXPECT_TRUE(says(advice, "85 % of the solid")) << advice.text;
   EXPECT_TRUE(is_plain(advice));
   EXPECT_TRUE(bare_solid_advice(block.lattice, radius, {}, {}).text.empty());
+}
+
+TEST(LittleRidgeAdvice, SuggestsALowerThreshold) {
+  EXPECT_TRUE(little_ridge_advice(0.5, 6).text.empty());
+  const Advice none = little_ridge_advice(0, 6);
+  EXPECT_TRUE(says(none, "none of it lies on a ridge")) << none.text;
+  EXPECT_TRUE(suggests(none, "threshold", "2"));
+  EXPECT_TRUE(is_plain(none));
+  EXPECT_TRUE(says(little_ridge_advice(0.003, 6), "only 0.3 % of it"));
+  const Advice curve = little_ridge_advice(0, std::nullopt);
+  EXPECT_TRUE(says(curve, "none of the skeleton of ridge behind it"));
+  EXPECT_TRUE(curve.settings.empty());
+}
+
+// A rod with its sheet; a part of it; with too few points for one; in two pieces.
+TEST(StraySheetAdvice, TellsWhatASheetLacks) {
+  NormalBlock block({3, 3, 60}, 0.5);
+  const std::vector<float> radius(block.lattice.points, 1.5f);
+  const BettiNumbers one{1, 0, 0};
+  std::vector<Vec3> places;
+  for (double k = 0; k < 60; ++k) places.push_back(0.5 * Vec3{1, 1, k});
+  const std::vector<std::uint32_t> points(places.size(), 0);
+  const std::span<const Vec3> all = places;
+  const auto advice = [&](std::span<const Vec3> of, const BettiNumbers& sheet) {
+    return stray_sheet_advice(block.lattice, radius, of, points, sheet, one);
+  };
+  EXPECT_TRUE(advice(all, one).text.empty());
+  EXPECT_TRUE(says(advice(all.first(10), one), "% of the solid are farther from it"));
+  const Advice torn = advice(all, {2, 1, 0});
+  EXPECT_TRUE(says(torn, "it has 2 pieces, 1 tunnel and 0 voids, the solid 1 piece, 0 tunnels and 0 voids"));
+  EXPECT_TRUE(is_plain(torn));
+  const std::vector<Vec3> few = {places[10], places[30], places[50]};
+  EXPECT_TRUE(says(advice(few, one), "it has only 3 points, a sheet through the whole solid about 67"));
+  EXPECT_TRUE(advice({}, {}).text.empty()) << "what is empty has other advice";
 }
 
 }  // namespace

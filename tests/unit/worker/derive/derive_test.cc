@@ -87,6 +87,7 @@ TEST_F(DeriveTest, ChordsGiveTheTorusItsAnnulus) {
   EXPECT_EQ(points.quality().components(), 1U);
   EXPECT_EQ(points.quality().holes(), 1U);
   EXPECT_TRUE(points.quality().has_bridges());
+  EXPECT_EQ(points.quality().advice(), "");
   v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
   lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
   const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(run(lease));
@@ -232,6 +233,17 @@ TEST_F(DeriveTest, ErodedSolidsHoldWhatTheLevelSays) {
   for (const double area : surface.area()) EXPECT_GT(area, 0);
   const double voxels = above * std::pow(prepared_.lattice().spacing, 3);
   EXPECT_NEAR(surface.volume(), voxels, 0.2 * voxels);
+}
+
+TEST_F(DeriveTest, NoLevelIsAboveTheVolume) {
+  v1::Lease lease = lease_of(v1::TASK_KIND_ERODED_POINTS);
+  for (const v1::TaskKind kind : {v1::TASK_KIND_ERODED_POINTS, v1::TASK_KIND_ERODED_SURFACE}) {
+    lease.set_kind(kind);
+    lease.mutable_eroded()->set_volume(prepared_.solid().volume);
+    EXPECT_THROW(run(lease), core::CoreError);
+    lease.mutable_eroded()->set_volume(0.999 * prepared_.solid().volume);
+    EXPECT_NO_THROW(run(lease));
+  }
 }
 
 TEST_F(DeriveTest, AnAlphaShapeHasTheFieldOfItsPoints) {

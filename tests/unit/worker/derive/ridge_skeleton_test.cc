@@ -7,6 +7,7 @@
 #include "core/shapes/shapes.h"
 #include "core/text/off_file.h"
 #include "derive/derived.h"
+#include "derive/ridge_of_field.h"
 #include "sample_job.h"
 
 namespace affskel::worker {
@@ -60,6 +61,44 @@ TEST(DeriveRidge, OfATorusIsItsAnnulus) {
     EXPECT_EQ(sheet.erosion(v), points.erosion(v));
   }
   EXPECT_GT(on_ridge, vertices / 2);
+}
+
+// A ball's, where E is greatest, was two triangles without area.
+TEST(DeriveRidge, OfABallIsAPoint) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.2);
+  const PreparedJob prepared(core::write_off(core::make_sphere(1, 320)), params);
+  const std::string field = finished_field(prepared);
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  const v1::TriangleMesh sheet = parsed<v1::TriangleMesh>(derive(lease, prepared, field));
+  EXPECT_EQ(sheet.xyz_size(), 3);
+  EXPECT_EQ(sheet.part_size(), 1);
+  EXPECT_EQ(sheet.corners_size(), 0);
+  EXPECT_EQ(sheet.segments_size(), 0);
+  EXPECT_EQ(sheet.quality().points(), 1U);
+  EXPECT_EQ(sheet.quality().components(), 1U);
+  EXPECT_NE(sheet.quality().advice().find("hardly more than a point"), std::string::npos);
+  lease.set_kind(v1::TASK_KIND_SKELETON);
+  lease.mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
+  EXPECT_EQ(parsed<v1::SkeletonPoints>(derive(lease, prepared, field)).point_size(), 1);
+}
+
+// As in bars along the axes, where it is all ways.
+TEST(DeriveRidge, SaysThatHardlyAnyOfItIsRidge) {
+  core::RidgeSheet sheet;
+  sheet.vertices.resize(20);
+  for (core::SheetVertex& vertex : sheet.vertices) vertex.kind = core::SkeletonKind::kWay;
+  v1::SkeletonQuality quality;
+  RidgeOfField::report_ridge(sheet, 6, quality);
+  EXPECT_NE(quality.advice().find("none of it lies on a ridge"), std::string::npos) << quality.advice();
+  ASSERT_EQ(quality.to_try_size(), 1);
+  EXPECT_EQ(quality.to_try(0).value(), "2");
+  sheet.vertices[0].kind = core::SkeletonKind::kRidge;
+  sheet.vertices[1].kind = core::SkeletonKind::kCurve;
+  v1::SkeletonQuality enough;
+  RidgeOfField::report_ridge(sheet, 6, enough);
+  EXPECT_EQ(enough.advice(), "");
 }
 
 // A box of side 400 with a needle of 600 on top, thinner than the spacing and between the lattice's lines.
