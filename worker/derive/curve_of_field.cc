@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 
 #include "base/number_text.h"
 #include "base/ridge_threshold.h"
@@ -57,7 +56,6 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   message.set_opened(static_cast<std::uint32_t>(curve.opened.size()));
   for (std::size_t n = 0; n < std::min(kMaxPlaces, curve.opened.size()); ++n)
     set_place(field_.to_mesh(curve.opened[n].place), curve.opened[n].distance, *message.add_openings());
-  if (!curve.segments.empty()) RidgeOfField::report_ridge(sheet_, std::nullopt, message);
   if (!curve.segments.empty() || !message.advice().empty()) return message;
   const std::string alone = "the curve is the place of the greatest E alone, without a line.";
   if (curve.opened.empty())

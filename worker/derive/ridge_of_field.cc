@@ -53,7 +53,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   set_advice(core::bare_solid_advice(field_.lattice(), basis_.radius, places, points), message);
 }
 
-void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, std::optional<double> threshold,
+void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, double threshold,
                                 v1::SkeletonQuality& message) {
   if (!message.advice().empty() || sheet.vertices.empty()) return;
   const auto on_ridge =

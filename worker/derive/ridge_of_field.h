@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "affskel/v1/types.pb.h"
 #include "core/ridge/ridge_sheet.h"
 #include "derive/finished_field.h"
@@ -27,9 +25,7 @@ class RidgeOfField {
   void report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message, bool cut = false) const;
 
   /// That hardly any of the sheet is ridge, where there is no other advice.
-  /// @param threshold of the ridge, if it is that of the skeleton.
-  static void report_ridge(const core::RidgeSheet& sheet, std::optional<double> threshold,
-                           v1::SkeletonQuality& message);
+  static void report_ridge(const core::RidgeSheet& sheet, double threshold, v1::SkeletonQuality& message);
 
  private:
   const FinishedField& field_;

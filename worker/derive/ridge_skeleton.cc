@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/disjoint_sets.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/ridge_sheet.h"
 #include "core/shocks/shock_operator.h"
@@ -41,46 +40,6 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
   return message;
 }
 
-// Spacings: what is smaller is a point.
-constexpr double kPoint = 0.1;
-
-// The place of the greatest E is a square of the lattice, which the collapse draws together where nothing else of the
-// sheet is there: two triangles without area are one vertex.
-void draw_together(core::RidgeSheet& sheet, double near) {
-  core::DisjointSets patches(sheet.vertices.size());
-  for (const auto& [a, b, c] : sheet.triangles) {
-    patches.unite(a, b);
-    patches.unite(b, c);
-  }
-  std::vector<std::uint32_t> triangles(sheet.vertices.size(), 0), number(sheet.vertices.size());
-  for (const core::Triangle& triangle : sheet.triangles) ++triangles[patches.find(triangle[0])];
-  for (std::uint32_t v = 0; v < sheet.vertices.size(); ++v) {
-    const std::uint32_t first = patches.find(v);
-    if (core::norm(sheet.vertices[v].position - sheet.vertices[first].position) >= near) triangles[first] = 0;
-  }
-  const auto is_point = [&](std::uint32_t v) { return triangles[patches.find(v)] == 2; };
-  std::uint32_t kept = 0;
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    const std::uint32_t first = patches.find(v);
-    if (is_point(v) && first != v) {
-      number[v] = number[first];
-      continue;
-    }
-    number[v] = kept;
-    sheet.vertices[kept] = sheet.vertices[v];
-    sheet.part[kept++] = sheet.part[v];
-  }
-  if (kept == number.size()) return;
-  sheet.vertices.resize(kept);
-  sheet.part.resize(kept);
-  std::erase_if(sheet.triangles, [&](const core::Triangle& triangle) { return is_point(triangle[0]); });
-  for (core::Triangle& triangle : sheet.triangles)
-    for (std::uint32_t& v : triangle) v = number[v];
-  for (core::Segment& segment : sheet.segments)
-    for (std::uint32_t& v : segment) v = number[v];
-  std::erase_if(sheet.segments, [](const core::Segment& segment) { return segment[0] == segment[1]; });
-}
-
 // Of the sample points, by the default curve at every threshold.
 std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfField& ridge,
                                     const core::RidgeSheet& sheet, double threshold) {
@@ -94,8 +53,7 @@ std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfFie
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
   const RidgeOfField ridge(field);
-  core::RidgeSheet sheet = ridge.sheet(params.threshold());
-  draw_together(sheet, kPoint * field.lattice().spacing);
+  const core::RidgeSheet sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
   ridge.append_points(sheet, message);
   *message.mutable_quality() = quality_of(field, ridge, sheet, params.threshold());
@@ -107,7 +65,6 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   const RidgeOfField ridge(field);
   core::RidgeSheet sheet = ridge.sheet(threshold);
   const std::vector<std::uint32_t> parts = parts_of(field, ridge, sheet, threshold);
-  draw_together(sheet, kPoint * field.lattice().spacing);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
   append_vertices(field, sheet, message);

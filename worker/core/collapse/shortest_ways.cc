@@ -15,10 +15,10 @@ std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anc
   std::vector<float> way(complex.cubes(), kNoWay);
   const auto cost_at = [&](std::uint32_t cube) { return cost.empty() ? 1.0F : cost[cube]; };
   StopCheck stop(context);
-  for (const bool from_vertices : {false, true}) {
+  for (const bool from_ends : {false, true}) {
     BucketQueue<std::pair<float, std::uint32_t>> front;
     for (const Anchor& anchor : anchors) {
-      if ((DualComplex::dimension(anchor.cell) == 0) != from_vertices) continue;
+      if (anchor.is_end != from_ends) continue;
       for (const auto& member : complex.star(anchor.cell)) {
         if (way[member.cube] != kNoWay) continue;
         way[member.cube] = 0;

@@ -13,11 +13,11 @@
 
 namespace affskel::core {
 
-/// A cell that a collapse may not remove, nor its boundary.  A vertex is where a line ends: the ways of others do not
-/// lead to it.
+/// A cell that a collapse may not remove, nor its boundary.
 struct Anchor {
   DualComplex::Cell cell = 0;  ///< a square, an edge or a vertex
   float weight = 0;            ///< of squares: the lightest one opens the pocket that it bounds
+  bool is_end = false;         ///< where a line ends: the ways of others do not lead to it
 };
 
 /// Of a step to a neighbouring cube, by how many axes it goes along; spacings.
@@ -28,8 +28,8 @@ inline constexpr std::array<float, 4> kStepLength{0, 1, std::numbers::sqrt2_v<fl
 inline constexpr float kNoWay = std::numeric_limits<float>::max();
 
 /// How far every cube lies from the nearest anchor: the cost of the cheapest way over cubes (26 neighbours,
-/// see DualComplex::for_each_step) to one about an anchor, to a share of a spacing (Dial 1969).  Vertices are ends
-/// that ways come from, and count only where no other anchor can be reached.
+/// see DualComplex::for_each_step) to one about an anchor, to a share of a spacing (Dial 1969).  Ends are where
+/// ways come from, and count only where no other anchor can be reached.
 /// @param cost per cube, of a spacing there, > 0; empty: 1 everywhere.
 /// @return per cube; kNoWay where no anchor can be reached.
 /// @throws CoreError kCancelled when the context asks to stop.

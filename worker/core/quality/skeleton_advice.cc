@@ -211,19 +211,15 @@ Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, 
       {}};
 }
 
-Advice little_ridge_advice(double share, std::optional<double> threshold) {
+Advice little_ridge_advice(double share, double threshold) {
   if (share >= kLittleRidge) return {};
-  Advice advice{(share == 0 ? "none" : "only " + base::rounded(100 * share, 2) + " %") +
-                    (threshold ? " of it" : " of the skeleton of ridge behind it") +
-                    " lies on a ridge as strong as the threshold; the rest are ways and membranes, "
-                    "which keep the solid's topology and need not lie in its middle.",
-                {}};
-  if (threshold) {
-    const std::string lower = base::rounded(*threshold / kLowerThreshold, 2);
-    advice.text += " A threshold of " + lower + " may find more.";
-    advice.settings.push_back({"threshold", lower});
-  }
-  return advice;
+  const std::string lower = base::rounded(threshold / kLowerThreshold, 2);
+  return {
+      (share == 0 ? "none" : "only " + base::rounded(100 * share, 2) + " %") +
+          " of it lies on a ridge as strong as the threshold; the rest are ways and membranes, which keep the "
+          "solid's topology. A threshold of " +
+          lower + " may find more.",
+      {{"threshold", lower}}};
 }
 
 Advice stray_sheet_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,9 +64,8 @@ Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, 
 
 /// That hardly any of a skeleton of `ridge` is ridge, so that nearly all of it are ways and membranes, which join what
 /// is found or keep the solid's topology; else nothing.
-/// @param share of its vertices that lie on ridges. @param threshold of these, for a lower one to try; none: it is not to
-///   be chosen.
-Advice little_ridge_advice(double share, std::optional<double> threshold);
+/// @param share of its vertices that lie on ridges. @param threshold of these, for a lower one to try.
+Advice little_ridge_advice(double share, double threshold);
 
 /// What is wrong with a sheet of `chords`: that it is not the solid's, where their pieces, tunnels or voids differ, or that
 /// there is hardly any, or none near much of the solid; else nothing.

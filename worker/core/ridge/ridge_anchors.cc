@@ -175,7 +175,7 @@ class Choice {
         result_.doubtful.push_back(tip);
         continue;
       }
-      take({tip.vertex, 0});
+      take(anchor_of(tip));
       ++result_.limbs;
     }
   }
@@ -216,19 +216,29 @@ class Choice {
     std::stable_sort(short_ones_.begin(), short_ones_.end(),
                      [](const Stretch& a, const Stretch& b) { return a.length > b.length; });
     const std::vector<char> anchored = anchored_cubes();
-    for (const auto& [component, found] : middles) take_middle(found.square, anchored);
+    for (const auto& [component, found] : middles) take_middle(deepest_vertex(found.square), anchored);
+  }
+
+  // Of a square's; of several the one nearest to the middle of all.
+  Cell deepest_vertex(Cell square) const {
+    const auto rank = [&](Cell vertex) {
+      const auto radius = [&](std::uint32_t cube) { return static_cast<double>(evidence_.radius[cube]); };
+      return rank_of(complex_, value_at<Continued::kFromAllCubes>(complex_, vertex, radius), vertex);
+    };
+    const auto corners = vertices_round(complex_, square);
+    return *std::ranges::max_element(corners, {}, rank);
   }
 
   // Unless what is anchored comes near.
-  void take_middle(Cell square, const std::vector<char>& anchored) {
+  void take_middle(Cell middle, const std::vector<char>& anchored) {
     const double allowed =
-        constants_.end_spacings + constants_.middle_radii * radius_about(complex_, evidence_.radius, square);
+        constants_.end_spacings + constants_.middle_radii * radius_about(complex_, evidence_.radius, middle);
     std::set<std::uint32_t> about;
     const auto reached = [&](std::uint32_t cube, float) {
       about.insert(cube);
       return anchored[cube] != 0;
     };
-    if (is_near(complex_, square, static_cast<float>(allowed), reached)) return;
+    if (is_near(complex_, middle, static_cast<float>(allowed), reached)) return;
     const auto through = std::find_if(short_ones_.begin(), short_ones_.end(), [&](const Stretch& stretch) {
       const auto cells = std::span(stretch.curve->cells).subspan(stretch.first, stretch.last - stretch.first);
       return std::any_of(cells.begin(), cells.end(),
@@ -237,7 +247,7 @@ class Choice {
     if (through != short_ones_.end())
       take_stretch(*through);
     else
-      take({square, 0});
+      take({middle, 0});
   }
 
   void join_components() {

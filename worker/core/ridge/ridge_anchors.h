@@ -40,6 +40,9 @@ struct CurvePlace {
   SheetVertex at;
 };
 
+/// That a limb's line ends at its tip.
+inline Anchor anchor_of(const LimbTip& tip) { return {tip.vertex, 0, true}; }
+
 struct RidgeAnchors {
   std::vector<Anchor> anchors;     ///< each cell once
   std::vector<CurvePlace> curves;  ///< by vertex, each once
@@ -62,7 +65,7 @@ struct RidgeAnchors {
 ///    all the loops of a frame from one of its corners, side by side through its rods.  The lattice's own tunnels are among
 ///    them, so that these hold only until tunnels are filled.
 /// 5. Where these do not come near the middle of a component of the complex, where E^(1/4) times the distance to the
-///    surface is greatest, the longest stretch of a curve that does, or else the square there.
+///    surface is greatest, the longest stretch of a curve that does, or else the vertex there.
 /// The lower the bounds, the more.  A function of its arguments alone.
 /// @throws CoreError kBadInput when a bound is out of range; kCancelled when the context asks to stop.
 RidgeAnchors ridge_anchors(const RidgeEvidence& evidence, const RidgeBounds& bounds,

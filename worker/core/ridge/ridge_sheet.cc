@@ -143,7 +143,7 @@ std::optional<NoisySolid> noisy_solid(const Solid& solid, const Lattice& lattice
 
 // Whether there are any.
 bool take_limbs(const std::vector<LimbTip>& limbs, RidgeAnchors& chosen) {
-  for (const LimbTip& tip : limbs) chosen.anchors.push_back({tip.vertex, 0});
+  for (const LimbTip& tip : limbs) chosen.anchors.push_back(anchor_of(tip));
   chosen.limbs += static_cast<std::uint32_t>(limbs.size());
   return !limbs.empty();
 }

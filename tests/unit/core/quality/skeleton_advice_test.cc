@@ -213,9 +213,6 @@ TEST(LittleRidgeAdvice, SuggestsALowerThreshold) {
   EXPECT_TRUE(suggests(none, "threshold", "2"));
   EXPECT_TRUE(is_plain(none));
   EXPECT_TRUE(says(little_ridge_advice(0.003, 6), "only 0.3 % of it"));
-  const Advice curve = little_ridge_advice(0, std::nullopt);
-  EXPECT_TRUE(says(curve, "none of the skeleton of ridge behind it"));
-  EXPECT_TRUE(curve.settings.empty());
 }
 
 // A rod with its sheet; a part of it; with too few points for one; in two pieces.
