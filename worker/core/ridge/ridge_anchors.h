@@ -41,14 +41,16 @@ struct CurvePlace {
 };
 
 /// That a limb's line ends at its tip.
-inline Anchor anchor_of(const LimbTip& tip) { return {tip.vertex, 0, true}; }
+inline Anchor anchor_of(const LimbTip& tip) {
+  return {tip.vertex, 0, true};
+}
 
 struct RidgeAnchors {
   std::vector<Anchor> anchors;     ///< each cell once
   std::vector<CurvePlace> curves;  ///< by vertex, each once
-  std::vector<Anchor> core;        ///< far from these, each cell once; they hold only while the solid collapses
-  std::uint32_t limbs = 0;         ///< tips among the anchors
-  std::vector<LimbTip> doubtful;   ///< that would be, but may be spikes
+  std::vector<Anchor> core;  ///< far from these, each cell once; they hold only while the solid collapses
+  std::uint32_t limbs = 0;   ///< tips among the anchors
+  std::vector<LimbTip> doubtful;  ///< that would be, but may be spikes
   /// Per cube: it belongs to a fragment, a component beside a larger one of the same part of the solid, where the
   /// lattice does not resolve it: it is nowhere three points thick.  No skeleton is wanted of it, unless it has a tunnel
   /// or a void, for these are the lattice's.
