@@ -48,7 +48,7 @@ void add_erode(CommandLine& line) {
       command->add_option("--fraction", options->fraction, "Level as a share of v0: 0.1 or 10%")
           ->transform(proper_share())
           ->type_name("F");
-  command->add_option("--volume", options->volume, "Level in mesh units cubed")
+  command->add_option("--volume", options->volume, "Level in mesh units cubed, below v0")
       ->check(positive_number())
       ->type_name("V")
       ->excludes(fraction);

@@ -21,7 +21,8 @@ import jobs
 engine.enter()
 SOURCES, GUIDE, PROGRAMS, STORAGE = engine.paths(4)
 
-# As the DNS has it: containers reach it, too, and need not ask for another address, which nobody here would answer.
+# The host's name has an address of both kinds, as a DNS would give: where one lacks, containers ask a name server for it,
+# and none answers here.
 NAME, ADDRESSES = "lab.example.org", ("192.0.2.7", "2001:db8::7")
 SERVER, WORKERS = "affskel_server_1", ("affskel_worker_1", "affskel_worker_2")
 LONG = ("--points", "300000", *jobs.DIRECTIONS)
@@ -206,12 +207,12 @@ class Compose(unittest.TestCase):
         trust = blocks("People")[0].splitlines()[2]
         self.assertIn("> ca.pem", trust)
         old = (self.place / "ca.pem").read_bytes()
-        worker = self.engine.process(WORKERS[0])
+        processes = [self.engine.process(name) for name in (SERVER, *WORKERS, "affskel_web_1")]
         self.type(renew)
         self.type(trust)
         self.assertNotEqual((self.place / "ca.pem").read_bytes(), old)
+        self.assertEqual([self.engine.process(name) for name in (SERVER, *WORKERS, "affskel_web_1")], processes)
         self.do_a_job("5000")
-        self.assertEqual(self.engine.process(WORKERS[0]), worker)
         # One that an authority has signed, for the name alone by which people know the server.
         request = ("openssl", "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes")
         for words in ((*request, "-x509", "-subj", "/CN=authority", "-keyout", "authority.key", "-out", "ca.pem"),

@@ -158,6 +158,7 @@ class Guide(unittest.TestCase):
         (container,) = patched["spec"]["template"]["spec"]["containers"]
         (before,) = server["spec"]["template"]["spec"]["containers"]
         self.assertEqual(container["command"], ["sleep", "infinity"])
+        self.assertIn("worker.token", self.blocks[2])  # of the database that first-start made in an empty volume
         self.assertEqual(set(before) - set(container), {"args", "startupProbe", "readinessProbe", "livenessProbe"})
         self.assertEqual(container["volumeMounts"], before["volumeMounts"])
 

@@ -252,7 +252,7 @@ class Job:
 
         Args:
             fraction: the level as a share of v0, between 0 and 1, or "5%".
-            volume: the level itself, mesh units cubed.  One of the two is needed.
+            volume: the level itself, mesh units cubed, below v0.  One of the two is needed.
         """
         level = _fraction(fraction)
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, level, volume)

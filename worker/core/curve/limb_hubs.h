@@ -44,7 +44,7 @@ struct LimbHubsInput {
 /// has, as far as it hangs together in the solid, is a hub where it is clearly more than a ball as thick as the thickest limb
 /// there: lines may run beside its middle, from arm to arm, in another way at each spacing.  As large as an ellipsoid with its
 /// moments, it takes what is nearest to lines in that, too, and so on, and leaves what is not; one that would then hold the
-/// free end of a limb that is longer than the hub is thick is none, nor one that fills less than half of it: a network.
+/// free end of a limb that is longer than the hub is thick is none, nor one that fills less than 0.45 of it: a network.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core

@@ -28,7 +28,7 @@ constexpr std::size_t kMoreOfSheet = 2000, kMoreOfPoints = 1000;
 // Fewer sample points than this are less than 10 across a cube.
 constexpr std::uint32_t kFewPoints = 1000;
 
-// Vertices of a skeleton that is hardly more than a point: a square's, or a quarter of the points across a cube.
+// Vertices of a skeleton that is hardly more than a point: so many, or a quarter of the points across a cube.
 constexpr double kFewVertices = 4, kFewAcross = 0.25;
 
 // Spacings from the surface: a plate that is no deeper may have no sheet yet, though it would have one.

@@ -219,7 +219,7 @@ class Choice {
     for (const auto& [component, found] : middles) take_middle(deepest_vertex(found.square), anchored);
   }
 
-  // Of a square's; of several the one nearest to the middle of all.
+  // The corner of a square that is farthest from the surface; of equal ones the nearest to the middle of all cubes.
   Cell deepest_vertex(Cell square) const {
     const auto rank = [&](Cell vertex) {
       const auto radius = [&](std::uint32_t cube) { return static_cast<double>(evidence_.radius[cube]); };

@@ -80,7 +80,7 @@ class Placing {
                : &from_.surface[static_cast<std::size_t>(at - cells.begin())];
   }
 
-  // A square is of the surface when the surface crosses it; the anchor in the centre of a round part is not.
+  // Squares among the anchors are the surface's.
   void place_surface() {
     CellSet anchored(complex_);
     for (const Anchor& anchor : from_.anchors.anchors) anchored.insert(anchor.cell);
@@ -89,9 +89,7 @@ class Placing {
       for (const std::uint32_t v : triangle) mesh_.vertices[v].kind = SkeletonKind::kMembrane;
     for (std::size_t s = 0; s < cells_.squares.size(); ++s) {
       const auto& ring = cells_.rings[s];
-      const bool ridge =
-          anchored.has(cells_.squares[s]) &&
-          std::all_of(ring.begin(), ring.end(), [&](std::uint32_t v) { return on_surface(v); });
+      const bool ridge = anchored.has(cells_.squares[s]);
       for (const std::uint32_t v : ring) {
         if (ridge) of_surface[v] = 1;
         mesh_.vertices[v].kind = SkeletonKind::kMembrane;

@@ -119,7 +119,7 @@ TEST(Collapse, LeadsLinesOffTheWalls) {
   const auto cube = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     return wide * (wide * i + j) + k;
   };
-  std::vector<Anchor> anchors{{complex.cell(cube(30, 0, 0), DualComplex::kUpperVertex), 0}};
+  std::vector<Anchor> anchors{{complex.cell(cube(30, 0, 0), DualComplex::kUpperVertex), 0, true}};
   for (std::uint32_t i = 0; i < strip; ++i)
     for (std::uint32_t k = 3; k <= 5; ++k) anchors.push_back({complex.square(cube(i, 4, k), 1), 1});
   std::vector<float> cost;
@@ -155,7 +155,7 @@ TEST(Collapse, LeadsOneLineToATip) {
   };
   for (const double angle : {1.8, 2.2, 2.6, 3.0}) {
     const Cell tip = complex.cell(cube_at(angle, 3.6), DualComplex::kUpperVertex);
-    const std::vector<Anchor> anchors{{complex.square(cube_at(0, 3), 0), 1}, {tip, 0}};
+    const std::vector<Anchor> anchors{{complex.square(cube_at(0, 3), 0), 1}, {tip, 0, true}};
     const CellSet left = collapse(complex, anchors).cells;
     std::size_t edges = 0;
     for (const Cell edge : complex.cofaces(tip)) edges += left.has(edge);

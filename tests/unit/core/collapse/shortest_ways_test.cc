@@ -26,6 +26,16 @@ TEST(ShortestWays, GoAlongDiagonals) {
   EXPECT_NEAR(way[last], steps * std::sqrt(3.0F), 1e-4);
 }
 
+TEST(ShortestWays, LeadToEndsWhereThereIsNothingElse) {
+  const LatticeSolid box(make_box(6, 6, 6), 1);
+  const DualComplex complex(box.lattice);
+  const std::uint32_t last = complex.cubes() - 1;
+  const std::vector<Anchor> anchors{{DualComplex::name(0, 0), 0},
+                                    {complex.cell(last, DualComplex::kUpperVertex), 0, true}};
+  EXPECT_GT(shortest_ways(complex, anchors, {})[last], 1);
+  EXPECT_EQ(shortest_ways(complex, {&anchors[1], 1}, {})[last], 0);
+}
+
 TEST(ShortestWays, TellWhatIsNear) {
   std::size_t near = 0, far = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

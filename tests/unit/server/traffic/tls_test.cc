@@ -47,6 +47,16 @@ TEST_F(TlsTest, OnlyWithTlsAndATrustedServer) {
   EXPECT_TRUE(info(*client_, &response).ok()) << "the Unix socket needs none";
 }
 
+TEST_F(TlsTest, OnlyOfTheNameThatIsCalled) {
+  start();
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  arguments.SetSslTargetNameOverride("lab.example.org");
+  const auto channel = wire::make_channel(server_->addresses().back(), trusting(authority_), arguments);
+  v1::ServerInfo response;
+  EXPECT_EQ(info(*v1::ErosionService::NewStub(channel), &response).error_code(), grpc::UNAVAILABLE);
+}
+
 TEST_F(TlsTest, ConnectionsAreInTheTableAsOthersAre) {
   start();
   const std::string job = submit("OFF 1");
