@@ -21,9 +21,10 @@ import jobs
 engine.enter()
 SOURCES, GUIDE, PROGRAMS, STORAGE = engine.paths(4)
 
-# The host's name has an address of both kinds, as a DNS would give: where one lacks, containers ask a name server for it,
-# and none answers here.
-NAME, ADDRESSES = "lab.example.org", ("192.0.2.7", "2001:db8::7")
+NAME = "lab.example.org"
+# Of its own, for containers that call it by its name, one of both kinds, as a DNS would give: where one lacks, containers
+# ask a name server for it, and none answers here.
+ADDRESSES = ("192.0.2.7", "2001:db8::7")
 SERVER, WORKERS = "affskel_server_1", ("affskel_worker_1", "affskel_worker_2")
 LONG = ("--points", "300000", *jobs.DIRECTIONS)
 
@@ -48,9 +49,7 @@ class Compose(unittest.TestCase):
         shutil.copytree(SOURCES, cls.place)
         # In this mount namespace alone.
         hosts = place / "hosts"
-        hosts.write_text("\n".join(("127.0.0.1 localhost", *(f"{address} {NAME}" for address in ADDRESSES), "")))
-        for address in ADDRESSES:
-            subprocess.run(["ip", "address", "add", address, "dev", "lo"], check=True)
+        hosts.write_text(f"127.0.0.1 localhost {NAME}\n")
         subprocess.run(["mount", "--bind", hosts, "/etc/hosts"], check=True)
         cls.settings = cls.engine.environment | engine.bare_environment(
             PATH=f"{PROGRAMS}:{os.environ['PATH']}", HOME=str(place), CONTAINERS_CONF=cls.engine.environment["CONTAINERS_CONF"],
@@ -221,6 +220,9 @@ class Compose(unittest.TestCase):
                       ("openssl", "x509", "-req", "-in", "request.pem", "-copy_extensions", "copy", "-CA", "ca.pem",
                        "-CAkey", "authority.key", "-days", "2", "-out", "server.pem")):
             self.engine.run(*words, cwd=self.place)
+        for address in ADDRESSES:
+            subprocess.run(["ip", "address", "add", address, "dev", "lo"], check=True)
+        Path("/etc/hosts").write_text("\n".join(("127.0.0.1 localhost", *(f"{address} {NAME}" for address in ADDRESSES), "")))
         self.type(own)
         self.do_a_job("6000")
         self.until_healthy("affskel_web_1")
