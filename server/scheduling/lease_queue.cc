@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "base/mutex.h"
 #include "calls/call_timer.h"
@@ -127,8 +129,8 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
     check_worker(request->worker());
   });
   if (status.ok()) {
-    registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));
     const base::MutexLock lock(mutex_);
+    registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));
     if (stopping_) {
       status = shutting_down();
     } else {
@@ -175,6 +177,7 @@ void LeaseQueue::run() {
     }
     work_ = false;
     lock.unlock();
+    put_holders_first(candidates);
     serve(std::move(candidates));
     end_expired();
     lock.lock();
@@ -193,6 +196,19 @@ void LeaseQueue::run() {
     const Time deadline = (*first)->deadline();
     changed_.wait_until(lock, deadline, something_to_do);
   }
+}
+
+// Another would fetch the job and make it ready first, and what is derived have to begin with the field.
+void LeaseQueue::put_holders_first(std::list<PollPtr>& polls) {
+  if (polls.size() < 2) return;
+  std::set<std::string> jobs;
+  guarded([&] { jobs = store_.requested_jobs(); });
+  if (jobs.empty()) return;
+  const auto holds = [&](const PollPtr& poll) {
+    const v1::LeaseTaskRequest& request = poll->request();
+    return jobs.contains(request.preferred_job()) ? 1 + int{request.derived()} : 0;
+  };
+  polls.sort([&](const PollPtr& a, const PollPtr& b) { return holds(a) > holds(b); });
 }
 
 void LeaseQueue::serve(std::list<PollPtr> polls) {

@@ -18,7 +18,7 @@
 namespace affskel::server {
 
 /// Workers that wait for work; none of them holds a thread.  One thread leases for all of them, in the
-/// order in which they came.  Thread-safe.
+/// order in which they came, but first for those that hold a job of which something is requested.  Thread-safe.
 class LeaseQueue {
  public:
   /// @param bounds hears of who works on what field.
@@ -40,6 +40,7 @@ class LeaseQueue {
   using PollPtr = std::shared_ptr<Poll>;
 
   void run();
+  void put_holders_first(std::list<PollPtr>& polls);
   void serve(std::list<PollPtr> polls);
   void serve_together(const std::vector<PollPtr>& polls);
   void end_poll(const PollPtr& poll, const grpc::Status& status);

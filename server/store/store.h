@@ -227,6 +227,8 @@ class Store final : public TokenSource {
   };
   /// Supervised workers that hold leases, this server's or a predecessor's.
   std::vector<Holder> supervised_holders();
+  /// Of requests for artefacts that wait for a worker, some at most.
+  std::set<std::string> requested_jobs();
 
  private:
   /// What a caller wants to write.  It lives on the caller's stack, and is the business of the thread that

@@ -329,4 +329,14 @@ std::vector<Store::Holder> Store::supervised_holders() {
   });
 }
 
+std::set<std::string> Store::requested_jobs() {
+  return read([](Database& db) {
+    Statement row = db.query(
+        "SELECT job_id FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = 1 LIMIT 16");
+    std::set<std::string> jobs;
+    while (row.step()) jobs.insert(row.text(0));
+    return jobs;
+  });
+}
+
 }  // namespace affskel::server

@@ -30,9 +30,15 @@ core::SheetMesh CurveOfField::lines_at(double threshold) const {
                            options_at(threshold));
 }
 
-core::CurveSkeleton CurveOfField::at(double threshold) const {
-  return core::curve_skeleton(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_,
-                              options_at(threshold));
+const core::CurveSkeleton& CurveOfField::at(double threshold) const {
+  const core::CurveOptions options = options_at(threshold);
+  auto& curves = field_.known().curves;
+  const auto known = curves.find(options.least_reach);
+  if (known != curves.end()) return known->second;
+  return curves
+      .emplace(options.least_reach, core::curve_skeleton(field_.job().solid(), field_.lattice(),
+                                                         ridge_.basis(), sheet_, options))
+      .first->second;
 }
 
 v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold) const {

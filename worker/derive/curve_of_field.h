@@ -11,15 +11,14 @@
 
 namespace affskel::worker {
 
-/// The curve skeleton of a field, at any threshold.  Keeps references to its arguments.
+/// The curve skeleton of a field, at any threshold, as far as it is not known.  Keeps references to its arguments.
 class CurveOfField {
  public:
-  /// @param sheet of the ridge, at its default threshold.
-  CurveOfField(const FinishedField& field, const RidgeOfField& ridge, const core::RidgeSheet& sheet)
-      : field_(field), ridge_(ridge), sheet_(sheet) {}
+  CurveOfField(const FinishedField& field, const RidgeOfField& ridge)
+      : field_(field), ridge_(ridge), sheet_(ridge.sheet(0)) {}
 
   /// @param threshold as in SkeletonParams: 0 for the default.
-  core::CurveSkeleton at(double threshold) const;
+  const core::CurveSkeleton& at(double threshold) const;
 
   v1::SkeletonQuality quality_of(const core::CurveSkeleton& curve, double threshold) const;
 
@@ -36,7 +35,7 @@ class CurveOfField {
 
   const FinishedField& field_;
   const RidgeOfField& ridge_;
-  const core::RidgeSheet& sheet_;
+  const core::RidgeSheet& sheet_;  // at its default threshold
 };
 
 /// Per sample point: the part of the solid that it lies in, from 1.

@@ -7,9 +7,8 @@ namespace affskel::worker {
 
 v1::SkeletonPoints curve_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
   const RidgeOfField ridge(field);
-  const core::RidgeSheet sheet = ridge.sheet(0);
-  const CurveOfField curves(field, ridge, sheet);
-  const core::CurveSkeleton curve = curves.at(params.threshold());
+  const CurveOfField curves(field, ridge);
+  const core::CurveSkeleton& curve = curves.at(params.threshold());
   v1::SkeletonPoints message;
   ridge.append_points(curve, message);
   *message.mutable_quality() = curves.quality_of(curve, params.threshold());
@@ -19,8 +18,7 @@ v1::SkeletonPoints curve_skeleton(const FinishedField& field, const v1::Skeleton
 v1::TriangleMesh curve_lines(const FinishedField& field, const v1::SurfaceParams& params) {
   const double threshold = params.skeleton().threshold();
   const RidgeOfField ridge(field);
-  const core::RidgeSheet sheet = ridge.sheet(0);
-  const CurveOfField curves(field, ridge, sheet);
+  const CurveOfField curves(field, ridge);
   return curves.message_of(curves.at(threshold), threshold);
 }
 

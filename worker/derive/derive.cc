@@ -37,6 +37,14 @@ v1::TriangleMesh surface(const FinishedField& field, const v1::SurfaceParams& pa
   }
 }
 
+// What others derive may take as much memory as what is known.
+bool looks_at_ridges(const v1::Lease& lease) {
+  const v1::Operator which = lease.kind() == v1::TASK_KIND_SURFACE
+                                 ? lease.surface().skeleton().operator_()
+                                 : lease.skeleton().operator_();
+  return lease.kind() == v1::TASK_KIND_PARTS || which == v1::OPERATOR_RIDGE || which == v1::OPERATOR_CURVE;
+}
+
 Derived packed(const v1::SkeletonPoints& points, const std::string& what) {
   Derived result;
   append_result(result.data, points, what);
@@ -63,10 +71,12 @@ Derived packed(const v1::SolidParts& parts) {
 }  // namespace
 
 Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
-               core::ExecutionContext* context, unsigned threads) {
+               core::ExecutionContext* context, unsigned threads, KnownRidges* known) {
+  if (known != nullptr && !looks_at_ridges(lease)) *known = {};
+  if (known != nullptr) known->look_at(lease.job().id(), lease.field());
   const bool refined = lease.job().params().minimum() == v1::MINIMUM_INFIMUM;
   const FinishedField field(job, refined ? refined_field(job, stored) : set_field(job, stored), context,
-                            threads);
+                            threads, known);
   field.throw_if_stopped();
   switch (lease.kind()) {
     case v1::TASK_KIND_SKELETON:

@@ -35,10 +35,12 @@ FieldValues refined_field(const PreparedJob& job, std::string_view stored) {
 }
 
 FinishedField::FinishedField(const PreparedJob& job, FieldValues field, core::ExecutionContext* context,
-                             unsigned threads)
+                             unsigned threads, KnownRidges* known)
     : job_(job),
       context_(context),
       threads_(threads),
+      own_(known == nullptr ? std::make_unique<KnownRidges>() : nullptr),
+      known_(known == nullptr ? own_.get() : known),
       over_set_(field.over_set),
       in_frame_(core::frame_field(job.lattice(), field.directions, field.values)),
       directions_(std::move(field.directions)),

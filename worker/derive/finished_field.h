@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "derive/known_ridges.h"
 #include "job/prepared_job.h"
 
 namespace affskel::worker {
@@ -32,12 +34,16 @@ class FinishedField {
  public:
   /// @param context of the task, may be null; must outlive this.
   /// @param threads that a derivation may use.
+  /// @param known of this field, must outlive this; null: nothing is, nor kept.
   FinishedField(const PreparedJob& job, FieldValues field, core::ExecutionContext* context = nullptr,
-                unsigned threads = 1);
+                unsigned threads = 1, KnownRidges* known = nullptr);
+  FinishedField(const FinishedField&) = delete;
+  FinishedField& operator=(const FinishedField&) = delete;
 
   const PreparedJob& job() const { return job_; }
   core::ExecutionContext* context() const { return context_; }
   unsigned threads() const { return threads_; }
+  KnownRidges& known() const { return *known_; }
   /// Between the steps of a derivation.  @throws core::CoreError kCancelled when the task is to stop.
   void throw_if_stopped() const { core::throw_if_stopped(context_); }
   const core::Lattice& lattice() const { return job_.lattice(); }
@@ -66,6 +72,8 @@ class FinishedField {
   const PreparedJob& job_;
   core::ExecutionContext* context_;
   unsigned threads_;
+  std::unique_ptr<KnownRidges> own_;
+  KnownRidges* known_;
   bool over_set_;
   core::FrameField in_frame_;  // what the values say, kept once
   core::DirectionSet directions_, frame_directions_;

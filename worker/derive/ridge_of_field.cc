@@ -8,16 +8,24 @@
 
 namespace affskel::worker {
 
-RidgeOfField::RidgeOfField(const FinishedField& field)
-    : field_(field),
-      basis_(core::ridge_basis(field.job().solid(), field.lattice(), field.in_frame(), field.threads(),
-                               field.context())) {}
+RidgeOfField::RidgeOfField(const FinishedField& field) : field_(field) {
+  auto& basis = field.known().basis;
+  if (!basis)
+    basis = core::ridge_basis(field.job().solid(), field.lattice(), field.in_frame(), field.threads(),
+                              field.context());
+}
 
-core::RidgeSheet RidgeOfField::sheet(double threshold) const {
+const core::RidgeSheet& RidgeOfField::sheet(double threshold) const {
   core::RidgeSheetOptions options;
   options.context = field_.context();
   options.bounds = ridge_bounds(threshold);
-  return core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis_, options);
+  auto& sheets = field_.known().sheets;
+  const auto known = sheets.find(options.bounds.low);
+  if (known != sheets.end()) return known->second;
+  return sheets
+      .emplace(options.bounds.low, core::ridge_sheet(field_.job().solid(), field_.lattice(),
+                                                     field_.in_frame(), basis(), options))
+      .first->second;
 }
 
 void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message,
@@ -32,8 +40,8 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
     set_place(sheet.unreached[n].place, sheet.unreached[n].distance, *message.add_unreached());
   const auto solid = static_cast<std::uint64_t>(message.solid_genus());
   const std::uint64_t more = sheet.lattice.holes - std::min(sheet.lattice.holes, solid);
-  for (std::size_t n = 0; n < std::min<std::size_t>(more, basis_.loops.size()); ++n)
-    set_place(field_.to_mesh(basis_.loops[n].place), basis_.loops[n].size * field_.lattice().spacing,
+  for (std::size_t n = 0; n < std::min<std::size_t>(more, basis().loops.size()); ++n)
+    set_place(field_.to_mesh(basis().loops[n].place), basis().loops[n].size * field_.lattice().spacing,
               *message.add_tunnels());
   if (!message.advice().empty()) return;
   core::BettiNumbers kept = sheet.lattice;
@@ -42,7 +50,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid), message);
   if (!message.advice().empty() || cut) return;
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
-  set_advice(core::small_skeleton_advice(field_.lattice(), basis_.radius, vertices), message);
+  set_advice(core::small_skeleton_advice(field_.lattice(), basis().radius, vertices), message);
   if (!message.advice().empty()) return;
   std::vector<core::Vec3> places;
   std::vector<std::uint32_t> points;
@@ -50,7 +58,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
     places.push_back(vertex.position);
     points.push_back(vertex.point);
   }
-  set_advice(core::bare_solid_advice(field_.lattice(), basis_.radius, places, points), message);
+  set_advice(core::bare_solid_advice(field_.lattice(), basis().radius, places, points), message);
 }
 
 void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, double threshold,

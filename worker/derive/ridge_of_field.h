@@ -6,15 +6,15 @@
 
 namespace affskel::worker {
 
-/// The ridge of a field, at any threshold.  Keeps a reference to the field.
+/// The ridge of a field, at any threshold, as far as it is not known.  Keeps a reference to the field.
 class RidgeOfField {
  public:
   explicit RidgeOfField(const FinishedField& field);
 
-  const core::RidgeBasis& basis() const { return basis_; }
+  const core::RidgeBasis& basis() const { return *field_.known().basis; }
 
   /// @param threshold as in SkeletonParams: 0 for the default.
-  core::RidgeSheet sheet(double threshold) const;
+  const core::RidgeSheet& sheet(double threshold) const;
 
   /// The vertices of a skeleton on it.
   void append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const;
@@ -29,7 +29,6 @@ class RidgeOfField {
 
  private:
   const FinishedField& field_;
-  const core::RidgeBasis basis_;
 };
 
 /// The vertices of a skeleton on a ridge with all that they have.

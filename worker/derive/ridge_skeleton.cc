@@ -41,11 +41,9 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
 }
 
 // Of the sample points, by the default curve at every threshold.
-std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfField& ridge,
-                                    const core::RidgeSheet& sheet, double threshold) {
-  const core::RidgeSheet whole = threshold == 0 ? core::RidgeSheet() : ridge.sheet(0);
-  const CurveOfField curves(field, ridge, threshold == 0 ? sheet : whole);
-  const core::CurveSkeleton curve = curves.at(0);
+std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfField& ridge) {
+  const CurveOfField curves(field, ridge);
+  const core::CurveSkeleton& curve = curves.at(0);
   return parts_of_points(curve, curves.graph_of(curve));
 }
 
@@ -53,7 +51,7 @@ std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfFie
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
   const RidgeOfField ridge(field);
-  const core::RidgeSheet sheet = ridge.sheet(params.threshold());
+  const core::RidgeSheet& sheet = ridge.sheet(params.threshold());
   v1::SkeletonPoints message;
   ridge.append_points(sheet, message);
   *message.mutable_quality() = quality_of(field, ridge, sheet, params.threshold());
@@ -64,7 +62,7 @@ v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams
   const double threshold = params.skeleton().threshold();
   const RidgeOfField ridge(field);
   core::RidgeSheet sheet = ridge.sheet(threshold);
-  const std::vector<std::uint32_t> parts = parts_of(field, ridge, sheet, threshold);
+  const std::vector<std::uint32_t> parts = parts_of(field, ridge);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;
   append_vertices(field, sheet, message);

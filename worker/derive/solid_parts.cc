@@ -40,7 +40,7 @@ class Parts {
         solid_(field.job().solid()),
         ridge_(field),
         sheet_(ridge_.sheet(0)),
-        curves_(field, ridge_, sheet_),
+        curves_(field, ridge_),
         curve_(curves_.at(threshold)),
         graph_(curves_.graph_of(curve_)),
         points_(parts_of_points(curve_, graph_)),
@@ -160,9 +160,9 @@ class Parts {
   const FinishedField& field_;
   const core::Solid& solid_;
   const RidgeOfField ridge_;
-  const core::RidgeSheet sheet_;
+  const core::RidgeSheet& sheet_;
   const CurveOfField curves_;
-  const core::CurveSkeleton curve_;
+  const core::CurveSkeleton& curve_;
   const core::CurveGraph graph_;
   const std::vector<std::uint32_t> points_;  // per sample point, its part
   const core::PartedSurface surface_;

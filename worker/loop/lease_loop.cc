@@ -124,6 +124,7 @@ class LeaseLoop {
   // this worker's knowledge, and it must not be given its task as a new one.
   std::optional<v1::Lease> ask(const std::string& present, std::chrono::milliseconds wait) {
     request_.set_preferred_job(job_.id());
+    request_.set_derived(!job_.id().empty() && known_.job == job_.id());
     request_.clear_held();
     for (const std::string& token : {present, last_report_.token()}) {
       if (!token.empty()) request_.add_held(token);
@@ -187,6 +188,7 @@ class LeaseLoop {
       } else {
         forget();
         job_.clear_shelf();  // it may be memory that is short
+        known_ = {};
         // At once, the task would most likely fail again, and a job has few attempts.
         if (report_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
       }
@@ -251,6 +253,7 @@ class LeaseLoop {
       const LeaseKeeper keeper(link_, lease, context);
       last_report_.wait();
     }
+    if (wire::find_derived_kind(lease.kind()) == nullptr) known_ = {};
     switch (lease.kind()) {
       case v1::TASK_KIND_PREPARE:
         return prepare(lease, context);
@@ -318,7 +321,7 @@ class LeaseLoop {
                          TaskContext& context) {
     TaskLimit limit(context, options_.derive_limit, kDeriving);
     try {
-      return affskel::worker::derive(lease, job, stored, &limit, options_.threads);
+      return affskel::worker::derive(lease, job, stored, &limit, options_.threads, &known_);
     } catch (const core::CoreError& error) {
       throw limit.reason(error);
     }
@@ -369,6 +372,7 @@ class LeaseLoop {
   std::set<std::string> jobs_;
   Clock::time_point last_work_ = Clock::now();
   JobInHand job_;
+  KnownRidges known_;  // while nothing but derivations comes
   Backoff failures_{kFirstRest, kMaxRest, std::random_device()()};
   LastReport last_report_;                         // uses job_
   v1::TaskKind kind_ = v1::TASK_KIND_UNSPECIFIED;  // of the last block

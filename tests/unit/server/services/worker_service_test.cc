@@ -48,6 +48,51 @@ TEST_F(WorkerServiceTest, WaitingWorkersShareTheBlocks) {
   for (auto& answer : answers) EXPECT_EQ(answer.get().lease().kind(), v1::TASK_KIND_ERODE);
 }
 
+TEST_F(WorkerServiceTest, ARequestGoesToTheOneThatHoldsItsJob) {
+  std::list<std::string> ids;
+  for (int n = 0; n < 2; ++n) {
+    ids.push_back(submit("OFF " + std::to_string(n)));
+    const FakeWorker worker(connect(), "at-first-" + std::to_string(n), 4, 8);
+    watch(ids.back());
+  }
+  struct Waiting {
+    std::string worker, job;
+    bool derived = false;
+    std::future<std::string> got;
+  };
+  std::vector<Waiting> workers;
+  workers.push_back({"of-none", "", false, {}});
+  workers.push_back({"of-first", ids.front(), false, {}});
+  workers.push_back({"of-second", ids.back(), false, {}});
+  workers.push_back({"derived-of-second", ids.back(), true, {}});
+  for (Waiting& one : workers) {
+    one.got = std::async(std::launch::async, [this, &one] {
+      v1::LeaseTaskRequest request;
+      request.set_wait_ms(30000);
+      request.set_preferred_job(one.job);
+      request.set_derived(one.derived);
+      *request.mutable_worker() = worker_identity(one.worker);
+      v1::LeaseTaskResponse response;
+      grpc::ClientContext context;
+      EXPECT_TRUE(worker_->LeaseTask(&context, request, &response).ok());
+      return response.lease().job().id();
+    });
+    wait_for_workers(static_cast<int>(2 + (&one - workers.data()) + 1));
+  }
+  // The last that came, then one that came before it, then whoever is there.
+  std::list<grpc::ClientContext> calls;
+  std::list<std::future<Fetched>> fetched;
+  double threshold = 10;
+  for (const std::size_t expected : {3U, 2U, 0U, 1U}) {
+    const v1::FetchArtifactRequest request = skeleton_request(ids.back(), ++threshold);
+    grpc::ClientContext& call = calls.emplace_back();
+    fetched.push_back(
+        std::async(std::launch::async, [this, request, &call] { return fetch(*client_, request, &call); }));
+    EXPECT_EQ(workers[expected].got.get(), ids.back()) << workers[expected].worker;
+  }
+  for (grpc::ClientContext& call : calls) call.TryCancel();
+}
+
 TEST_F(WorkerServiceTest, WorkerThatWentAwayGetsNothing) {
   grpc::ClientContext context;
   std::thread waiting([&] {

@@ -271,6 +271,38 @@ TEST_F(DeriveTest, EmptySkeletonsSayWhy) {
   EXPECT_FALSE(points.quality().advice().empty());
 }
 
+// Each as if alone, and of another field the first is not given.
+TEST_F(DeriveTest, WhatIsKnownChangesNothing) {
+  std::vector<v1::Lease> leases;
+  for (const double threshold : {0.0, 4.0, 6.0, 2.0}) {
+    for (const v1::Operator which : {v1::OPERATOR_RIDGE, v1::OPERATOR_CURVE}) {
+      leases.push_back(lease_of(v1::TASK_KIND_SKELETON));
+      leases.back().mutable_skeleton()->set_operator_(which);
+      leases.back().mutable_skeleton()->set_threshold(threshold);
+      leases.push_back(leases.back());
+      leases.back().set_kind(v1::TASK_KIND_SURFACE);
+      *leases.back().mutable_surface()->mutable_skeleton() = leases.back().skeleton();
+    }
+  }
+  leases.push_back(lease_of(v1::TASK_KIND_SKELETON));
+  leases.back().mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  leases.push_back(lease_of(v1::TASK_KIND_PARTS));
+  v1::ErosionParams params = sample_params();
+  params.set_directions("sphere:320");
+  PreparedJob other(sample_mesh(), params);
+  KnownRidges known;
+  for (PreparedJob* job : {&prepared_, &other}) {
+    const std::string field = finished_field(*job);
+    for (v1::Lease lease : leases) {
+      lease.set_field(job == &other ? "second" : "first");
+      EXPECT_EQ(derive(lease, *job, field, nullptr, 1, &known).data, derive(lease, *job, field).data)
+          << lease.ShortDebugString();
+      EXPECT_EQ(known.basis.has_value(), lease.skeleton().operator_() != v1::OPERATOR_CHORDS);
+      EXPECT_LE(known.sheets.size() + known.curves.size(), KnownRidges::kMost + 3);
+    }
+  }
+}
+
 struct InFrame {
   v1::Frame frame;
   v1::Operator which;
