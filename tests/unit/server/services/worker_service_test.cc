@@ -89,6 +89,11 @@ TEST_F(WorkerServiceTest, ARequestGoesToTheOneThatHoldsItsJob) {
     fetched.push_back(
         std::async(std::launch::async, [this, request, &call] { return fetch(*client_, request, &call); }));
     EXPECT_EQ(workers[expected].got.get(), ids.back()) << workers[expected].worker;
+    // Nobody has it whose lease ended before.
+    for (const Waiting& other : workers)
+      EXPECT_TRUE(!other.got.valid() ||
+                  other.got.wait_for(std::chrono::seconds(0)) == std::future_status::timeout)
+          << other.worker << " instead of " << workers[expected].worker;
   }
   for (grpc::ClientContext& call : calls) call.TryCancel();
 }
