@@ -22,7 +22,7 @@ class Order {
       if (way_here < kNoWay) farthest_ = std::max(farthest_, static_cast<double>(way_here));
   }
 
-  double time(Cell coface, double) const {
+  double time(Cell, Cell coface, double) const {
     const std::uint32_t cube = DualComplex::cube_of(coface), place = DualComplex::place_of(coface);
     double sum = static_cast<double>(way_[cube]), count = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -64,7 +64,7 @@ void give_up(const DualComplex& complex, std::span<const Cell> own, Cell square,
 
 // What is free goes, in any order.
 struct AnyOrder {
-  static double time(Cell, double) { return 0; }
+  static double time(Cell, Cell, double) { return 0; }
   static double level(Cell) { return 0; }
   static void removed(Cell, Cell, double) {}
   static void bared(Cell, double) {}

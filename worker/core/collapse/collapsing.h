@@ -68,7 +68,7 @@ class Collapsing {
   }
 
   /// Collapses as far as it goes, beginning with what is free now.
-  /// @param rules  time(coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time,
+  /// @param rules  time(cell, coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time,
   ///   those of one time in waves, each what the one before has freed, and of cells with one coface the first by
   ///   level(cell) and rank_of(), so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
@@ -114,7 +114,7 @@ class Collapsing {
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
     const Cell coface = coface_of(cell);  // not fixed, else the cell would be
-    queue_.push(static_cast<std::size_t>(rules.time(coface, now) / kStep), cell);
+    queue_.push(static_cast<std::size_t>(rules.time(cell, coface, now) / kStep), cell);
   }
 
   // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/base/unit.h"
 #include "core/base/vec3.h"
 #include "core/collapse/collapsing.h"
@@ -38,6 +39,13 @@ constexpr double kSameEnd = 0.5;
 // A corner of a flat end lies so many times as far from its middle as from the surface.
 constexpr double kFlat = 2.5;
 
+// The depth grows by 1 a spacing off the medial axis, in the mean of cubes on both sides of it by less: by 0.71 along the
+// bisector of a right angle.  Distances on a lattice are off by as much as that leaves room for.
+constexpr double kOffAxis = 0.8;
+
+// A square goes with the front in the direction of the front: along a diagonal of space that advances 0.58 along an axis.
+constexpr double kOnwards = 0.6;
+
 class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
@@ -47,7 +55,10 @@ class Thinning {
         height_(height),
         slight_(1e-3 / *std::max_element(height.begin(), height.end())),
         least_reach_(least_reach),
-        cuts_(cuts.begin(), cuts.end()) {}
+        cuts_(cuts.begin(), cuts.end()) {
+    slopes_.reserve(complex.cubes());
+    for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube) slopes_.push_back(slope_of(cube));
+  }
 
   std::vector<LimbTip> tips() {
     for (Line& line : lines_) keep_tip(line);
@@ -57,8 +68,8 @@ class Thinning {
     return result;
   }
 
-  double time(Cell coface, double now) const {
-    if (DualComplex::dimension(coface) < 3) return now + 1;
+  double time(Cell cell, Cell coface, double now) const {
+    if (DualComplex::dimension(coface) < 3) return now + (is_passed(cell, coface) ? 0 : 1);
     return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
   }
 
@@ -113,6 +124,38 @@ class Thinning {
   }
 
  private:
+  // How fast the depth grows at a cube, by differences over two spacings.
+  std::array<float, 3> slope_of(std::uint32_t cube) const {
+    std::array<float, 3> slope{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::uint32_t lower = complex_.neighbour(cube, axis, 0),
+                          upper = complex_.neighbour(cube, axis, 2);
+      const float rise = depth_[upper == kNone ? cube : upper] - depth_[lower == kNone ? cube : lower];
+      slope[axis] = rise / static_cast<float>(std::max(1, (lower != kNone) + (upper != kNone)));
+    }
+    return slope;
+  }
+
+  // Whether what is left of the cubes about a cell lies off the medial axis, where the front has passed already.  A step
+  // a spacing long, along one axis, would take it longer than the front took: lines of round limbs were born late then,
+  // at 1.4 to 1.8 times their radius.
+  bool is_passed(Cell cell, Cell coface) const {
+    const auto star = complex_.star(coface);
+    Vec3 slope;
+    for (const auto& [cube, place] : star)
+      for (std::size_t axis = 0; axis < 3; ++axis) slope[axis] += static_cast<double>(slopes_[cube][axis]);
+    slope = (1 / static_cast<double>(star.count)) * slope;
+    if (norm(slope) <= kOffAxis) return false;
+    if (DualComplex::dimension(coface) == 1) return true;
+    const std::uint32_t cube = DualComplex::cube_of(coface), place = DualComplex::place_of(coface);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (DualComplex::digit(place, axis) != 1) continue;
+      if (cell == complex_.cell(cube, place - DualComplex::kWeight[axis])) return slope[axis] > kOnwards;
+      if (cell == complex_.cell(cube, place + DualComplex::kWeight[axis])) return -slope[axis] > kOnwards;
+    }
+    return false;
+  }
+
   // What was eaten of a line.  Its length is measured in chords of a few edges, since edges turn with the
   // lattice's axes.
   struct Line {
@@ -269,6 +312,7 @@ class Thinning {
   std::span<const double> height_;
   double slight_;
   double least_reach_;
+  std::vector<std::array<float, 3>> slopes_;  // per cube
   std::set<Cell> cuts_;
   std::vector<Cell> bared_cuts_;
   std::deque<Line> lines_;  // under way, and places that are free
