@@ -104,7 +104,7 @@ class FindHubs {
     const double length = length_of(in_.places, line);
     const double size = size_of(line);
     const bool is_link = is_joint(a) && is_joint(b);
-    if (a != b && is_link && (length < 2 * size || flatness(line) > kPlate))
+    if (is_link && (length < 2 * size || (a != b && flatness(line) > kPlate)))
       return give_body(line, line.size());
     for (const std::uint32_t v : line)
       if (!is_joint(v)) length_[v] = length;

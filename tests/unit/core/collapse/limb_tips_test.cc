@@ -53,6 +53,19 @@ TEST(LimbTips, OfAFingerAreItsTwoEnds) {
   }
 }
 
+// However it lies in the lattice: its lines meet half-way, three radii beyond a round end.
+TEST(LimbTips, OfARoundLimbReachAsFarAsItDoes) {
+  const double spacing = 0.11;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const LatticeSolid solid(shaken(make_cylinder(1, 8, 64), 0, seed), spacing);
+    const DualComplex complex(solid.lattice);
+    const std::vector<float> depth = surface_distance(solid.lattice);
+    const std::vector<double> height(depth.begin(), depth.end());
+    for (const LimbTip& tip : limb_tips(complex, depth, height, 1).tips)
+      EXPECT_NEAR(tip.reach, 3, 0.7) << seed;
+  }
+}
+
 TEST(LimbTips, AreNoneOfWhatIsNotLongerThanThick) {
   for (const double spacing : {0.07, 0.11}) {
     EXPECT_TRUE(tips_of(make_sphere(1, 1280), spacing).empty());

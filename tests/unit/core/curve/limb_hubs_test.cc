@@ -107,6 +107,19 @@ TEST(LimbHubs, AreOneHoweverLinesRunInThem) {
   expect_one_hub_of_two_joints(Cube(), {-1, 0, -1.5}, 20, 1.1);
 }
 
+// The lattice makes one about a gap thinner than a spacing, and joints that move draw it together.
+TEST(LimbHubs, HaveLoopsThatAreShorterThanThick) {
+  Cube cube;
+  const std::uint32_t joint = cube.add(cube.middle, 2);
+  cube.go_out(joint, kCross, 1.5, 1.5);
+  const std::uint32_t a = cube.add(cube.middle + Vec3{0.01, 0, 0}, 2), b = cube.add(cube.middle, 2);
+  cube.radius.resize(cube.places.size(), 10);
+  cube.join(joint, a);
+  cube.join(a, b);
+  cube.join(b, joint);
+  ASSERT_EQ(cube.found().hubs.size(), 1U);
+}
+
 TEST(LimbHubs, AreNotWhereLimbsGrowSlowly) {
   Cube cube;
   cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 0.3);
