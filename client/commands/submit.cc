@@ -98,7 +98,9 @@ std::optional<MeshSource> replaced(Context& context, const std::string& file, co
   if (done.steps.empty()) return std::nullopt;
   Notices notices;
   for (const core::RepairStep& step : done.steps)
-    notices.push_back(note(step.code, "repaired before it was sent: " + step.message, input.path));
+    notices.push_back(is_warning(step)
+                          ? warning(step.code, step.message, input.path)
+                          : note(step.code, "repaired before it was sent: " + step.message, input.path));
   say(context.console(), notices);
   return replace_mesh(input, std::move(done));
 }

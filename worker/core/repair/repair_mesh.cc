@@ -9,10 +9,10 @@
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/unused_points.h"
-#include "core/repair/alpha_wrap.h"
 #include "core/repair/cloud_surface.h"
 #include "core/repair/fill_holes.h"
 #include "core/repair/orient_soup.h"
+#include "core/repair/wrap_solid.h"
 #include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
 
@@ -29,6 +29,7 @@ constexpr double kNoVolume = 1e-3;
 // Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more than
 // 0.5 % off when these were filled were beyond it, of those with many holes none.
 constexpr double kToldBulge = 0.003;
+constexpr double kToldWrap = 0.02;  // of the volume: walls and limbs of a few alphas differ by less
 
 std::string short_text(double value) {
   return base::rounded(value, 4);
@@ -172,8 +173,8 @@ class Mending {
   std::vector<std::uint32_t> rims_;  // of each hole a point
 };
 
-void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
-  const Mesh& mesh = result.mesh;
+void tell_wrap(const AlphaWrapOptions& wrap, SolidWrap wrapped, RepairedMesh& result) {
+  const Mesh& mesh = result.mesh = std::move(wrapped.mesh);
   DisjointSets pieces(mesh.points.size());
   auto count = static_cast<std::int64_t>(mesh.points.size());
   for (const Triangle& t : mesh.triangles)
@@ -182,11 +183,20 @@ void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
   const auto characteristic =
       static_cast<std::int64_t>(mesh.points.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
   const auto handles = static_cast<std::uint64_t>(count - characteristic / 2);
+  std::string made = base::counted(static_cast<std::uint64_t>(count) - wrapped.kept, "piece");
+  if (handles > 0) made += " with " + base::counted(handles, "handle");
+  if (wrapped.kept > 0)
+    made += (handles > 0 ? " and " : " with ") + base::counted(wrapped.kept, "cavity", "cavities");
   result.steps.push_back({"wrapped", mesh.triangles.size(),
-                          "wrapped by " + base::counted(mesh.triangles.size(), "triangle") + " in " +
-                              base::counted(static_cast<std::uint64_t>(count), "piece") +
-                              (handles > 0 ? " with " + base::counted(handles, "handle") : "") +
+                          "wrapped by " + base::counted(mesh.triangles.size(), "triangle") + " in " + made +
                               ", hollows narrower than " + short_text(wrap.alpha) + " are closed"});
+  if (wrapped.closed > 0) {
+    result.steps.push_back({"closed-cavities", wrapped.closed,
+                            base::counted(wrapped.closed, "cavity", "cavities") +
+                                " closed, and what lies in them swallowed: too narrow for a ball of radius " +
+                                short_text(wrap.alpha) + ", or with walls that cross another surface"});
+  }
+  result.wrapped_volume = wrapped.volume;
 }
 
 // The surface through a cloud, with what was done for it. @return spacing of its points.
@@ -230,8 +240,7 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   }
   if (options.alpha > 0) wrap.alpha = options.alpha;
   wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
-  result.mesh = alpha_wrap(result.mesh, wrap);
-  tell_wrap(wrap, result);
+  tell_wrap(wrap, wrap_solid(result.mesh, wrap), result);
   return result;
 }
 
@@ -255,6 +264,15 @@ void face_outward(RepairedMesh& result, const RepairOptions& options) {
              base::rounded(100 * result.bulge / result.volume, 2) +
              " % of the volume that soap films would leave out; what was there may have differed as much"});
   }
+}
+
+void tell_wrapped_volume(RepairedMesh& result) {
+  const double before = result.wrapped_volume, more = result.volume / before - 1;
+  if (!(before > 0) || std::fabs(more) < kToldWrap) return;
+  result.steps.push_back({"wrap-volume", 1,
+                          "the wrap holds " + short_text(result.volume) + ", what it wraps " +
+                              short_text(before) + ": " + base::rounded(100 * std::fabs(more), 3) + " % " +
+                              (more > 0 ? "more" : "less")});
 }
 
 // Powers of lengths must not overflow, nor vanish.
@@ -287,6 +305,7 @@ RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
     result = Mending(mesh, options).result(options);
   }
   if (result.left.empty()) face_outward(result, options);
+  if (result.left.empty()) tell_wrapped_volume(result);
   return result;
 }
 
