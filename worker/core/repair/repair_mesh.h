@@ -46,7 +46,7 @@ struct RepairedMesh {
   std::string left;           ///< what it still lacks, with what would help; empty: nothing
 };
 
-/// Whether a mesh is a flat sheet, which encloses nothing however its holes are filled.
+/// Whether all triangles of a mesh lie in a plane, so that they enclose nothing however their holes are filled.
 bool is_flat_sheet(const Mesh& mesh);
 
 /// Makes a mesh bound a solid, in steps that are told.
