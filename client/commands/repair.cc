@@ -25,7 +25,8 @@ struct RepairOptions {
 
 std::string steps_text(const Repair& done, bool is_sound) {
   std::string text;
-  for (const core::RepairStep& step : done.steps) text += key_line(step.code, step.message);
+  for (const core::RepairStep& step : done.steps)
+    if (!is_warning(step)) text += key_line(step.code, step.message);
   if (done.steps.empty() && is_sound) text += key_line("sound", "yes");
   text += key_line("triangles", std::to_string(done.mesh.triangles.size()));
   return text + key_line("volume", base::plain(done.volume, base::kMeasureDigits));
@@ -40,8 +41,11 @@ void run_repair(Context& context, const RepairOptions& options) {
   });
   const Repair done = context.within_budget(Budget::Work::kRepair, options.file,
                                             [&] { return repaired(context, mesh, options.file, choice); });
-  const Notices warnings = context.within_budget(Budget::Work::kRepair, options.file,
-                                                 [&] { return solid_warnings(done.mesh, options.file); });
+  Notices warnings;
+  for (const core::RepairStep& step : done.steps)
+    if (is_warning(step)) warnings.push_back(warning(step.code, step.message, options.file));
+  append(warnings, context.within_budget(Budget::Work::kRepair, options.file,
+                                         [&] { return solid_warnings(done.mesh, options.file); }));
   ShapeFile shape;
   shape.off.mesh = done.mesh;
   const FileFormat format = choose_format(destination, shape_formats(shape), "mesh");
@@ -89,8 +93,8 @@ void add_repair(CommandLine& line) {
       ->type_name("");
   add_repair_option(command, options->how,
                     "auto fills holes up to 0.6 of the box's diagonal round, fill=LENGTH up to that\n"
-                    "length; wrap, or wrap=ALPHA, takes a new surface round all of it, which closes\n"
-                    "hollows narrower than a 220th of the diagonal; none only checks");
+                    "length; wrap, or wrap=ALPHA, takes a new surface round all of it and in its cavities,\n"
+                    "which closes hollows narrower than a 220th of the diagonal; none only checks");
   add_isovalue(command, options->reading.isovalue);
   add_format(command, options->format);
   add_output(command, options->output, "Mesh file to write, or -");

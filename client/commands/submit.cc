@@ -98,7 +98,9 @@ std::optional<MeshSource> replaced(Context& context, const std::string& file, co
   if (done.steps.empty()) return std::nullopt;
   Notices notices;
   for (const core::RepairStep& step : done.steps)
-    notices.push_back(note(step.code, "repaired before it was sent: " + step.message, input.path));
+    notices.push_back(is_warning(step)
+                          ? warning(step.code, step.message, input.path)
+                          : note(step.code, "repaired before it was sent: " + step.message, input.path));
   say(context.console(), notices);
   return replace_mesh(input, std::move(done));
 }
@@ -143,6 +145,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   Submission asked = options.asked;
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
   const Notices said = check_mesh(input, found.solid, options.spacing, asked, console);
+  say(console, direction_notices(found.solid, found.source ? &*found.source : nullptr, asked));
   if (!options.output_dir.empty()) prepare_output(options.output_dir, job_name(input.path));
   const Submitted submitted =
       submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);

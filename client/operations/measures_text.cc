@@ -62,8 +62,9 @@ ordered_json whole_json(const Measures& m) {
           {"solid_voids", curve.solid_cavities()}};
 }
 
+// What is wider still has a space before it.
 std::string aligned(std::string text, std::size_t width) {
-  if (text.size() < width) text.insert(0, width - text.size(), ' ');
+  text.insert(0, text.size() < width ? width - text.size() : 1, ' ');
   return text;
 }
 

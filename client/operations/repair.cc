@@ -54,6 +54,10 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
   return done;
 }
 
+bool is_warning(const core::RepairStep& step) {
+  return step.code == "closed-cavities" || step.code == "wrap-volume";
+}
+
 Notices solid_warnings(const core::Mesh& mesh, const std::string& file) {
   Notices warnings;
   for (const core::MeshNote& note : core::make_solid(mesh).notes)

@@ -125,6 +125,22 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
   }
 }
 
+Notices direction_notices(const core::Solid& solid, const MeshSource* source, const Submission& submission) {
+  constexpr std::size_t kMany = 20000;
+  const std::size_t count = solid.mesh.triangles.size();
+  if (source == nullptr || submission.directions != "triangles" || count < kMany) return {};
+  if (std::none_of(source->steps.begin(), source->steps.end(),
+                   [](const core::RepairStep& step) { return step.code == "wrapped"; }))
+    return {};
+  Notice many =
+      note("MANY_DIRECTIONS", "the wrap's triangles give " + std::to_string(count) +
+                                  " directions, which take as long; 5,000 of a sphere see as much.");
+  v1::Setting& directions = many.to_try.emplace_back();
+  directions.set_name("directions");
+  directions.set_value("sphere:5000");
+  return {std::move(many)};
+}
+
 Submitted submit(Session& session, const Environment& environment, const InputFile& input,
                  const MeshSource* source, const Submission& submission) {
   const OffText text(input);

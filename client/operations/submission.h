@@ -42,6 +42,11 @@ void check_spacing(const core::Solid& solid, double spacing, const std::string& 
 /// @throws ClientError kBadInput or kLimit.
 void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission);
 
+/// What would take much less time, where a wrap has so many triangles that their normals are far more directions than are
+/// needed.
+/// @param source what the mesh was before its repair; null where it was not repaired.
+Notices direction_notices(const core::Solid& solid, const MeshSource* source, const Submission& submission);
+
 struct Submitted {
   v1::Job job;
   bool existed = false;  ///< an earlier job answers this submission

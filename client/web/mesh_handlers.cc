@@ -168,7 +168,9 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
     if (!call.request.parameter("repair").empty()) {
       source = replace_by_repaired(call, name, input, &context);
       for (const core::RepairStep& step : source.steps)
-        steps.push_back({{"severity", "repaired"}, {"code", step.code}, {"message", step.message}});
+        steps.push_back({{"severity", is_warning(step) ? "warning" : "repaired"},
+                         {"code", step.code},
+                         {"message", step.message}});
     }
   } catch (const ClientError& error) {
     if (error.exit_code() != ExitCode::kBadInput) throw;

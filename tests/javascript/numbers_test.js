@@ -105,7 +105,7 @@ test('values under the pointer: E by its share, what is known of the place', () 
 
 test('numbers are read as people type them, with a comma or a point', () => {
   expectAll(typed, [['5.5', 5.5], ['5,5', 5.5], [' 12 ', 12], ['1,234', 1234], ['1,234,567.5', 1234567.5], ['10 000', 10000],
-    ['1e-3', 1e-3], ['-3', -3], ['0,25', 0.25], ['.5', 0.5]]);
+    ['1e-3', 1e-3], ['-3', -3], ['0,25', 0.25], ['0,500', 0.5], ['-0,050', -0.05], ['.5', 0.5]]);
   for (const wrong of ['', '1e', 'x', '1.2.3', '1.234,5', '0x10', 'Infinity', '--1']) assert.ok(Number.isNaN(typed(wrong)), wrong);
 });
 

@@ -37,6 +37,10 @@ function formWith(...answers) {
   return { form, asked };
 }
 
+test('a name may be as long as elsewhere', () => {
+  assert.equal(formWith().form.name.attributes.maxlength, '200');
+});
+
 test('like a job means its threshold and its seed, too', async () => {
   const { form, asked } = formWith({});
   form.like(kJob);

@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 
 import affskel
-from affskel import _arrays, _meshes, _messages, _session
+from affskel import _arrays, _checks, _meshes, _messages, _session
 from affskel.v1 import client_service_pb2 as service
 from affskel.v1 import types_pb2 as types
 
@@ -260,6 +260,22 @@ class Meshes(unittest.TestCase):
         ):
             with self.subTest(words), self.assertRaisesRegex(affskel.BadInputError, words):
                 _meshes.mesh_of(mesh)
+
+    def test_complex_vertices_and_bytes_that_are_no_off_are_refused(self):
+        with self.assertRaisesRegex(affskel.BadInputError, "complex"):
+            _meshes.mesh_of(([[0, 0, 0], [1, 0, 0], [0, 1j, 0]], [[0, 1, 2]]))
+        for wrong in (b"/tmp/body.off", b"ply\nformat ascii 1.0\n"):
+            with self.assertRaisesRegex(affskel.BadInputError, "does not begin with OFF"):
+                _checks.require_off(wrong)
+        with self.assertRaisesRegex(affskel.BadInputError, "ends before"):
+            _checks.require_off(b"OFF\n")
+        for right in (b"OFF\n1 2 3", b"# a cube\nOFF 8 6 0", b"COFF\n8 6 0", b"STCN4OFF BINARY\n\0\1"):
+            _checks.require_off(right)
+
+    def test_an_empty_eroded_surface_has_its_attributes(self):
+        empty = _arrays.surface_of(types.TriangleMesh(), ("E", "area"))
+        self.assertEqual({name: len(array) for name, array in empty.attributes.items()}, {"E": 0, "area": 0})
+        self.assertEqual(_arrays.surface_of(types.TriangleMesh()).attributes, {})
 
     def test_a_file_that_is_not_there_is_pythons_own_error(self):
         for name in ("/nowhere/body.off", "/nowhere/body.ply"):

@@ -6,6 +6,7 @@ import importlib.util
 import io
 import json
 import os
+import pickle
 import signal
 import sys
 import unittest
@@ -180,6 +181,31 @@ class Waiting(WithDirectory):
                 with self.subTest(wrong), self.assertRaisesRegex(affskel.UsageError, "timeout is "):
                     call(timeout=wrong)
 
+    def test_no_time_is_enough_for_a_job_at_its_end_alone(self):
+        job = self.client(self.server()).submit(CUBE.encode(), spacing=.1).wait()
+        for timeout in (0, -1, 0.0):
+            self.assertEqual(job.wait(timeout=timeout).seen.state, "done")
+
+    def test_no_time_is_too_little_for_another(self):
+        waiting = self.client(self.server(workers=0)).submit(CUBE.encode(), spacing=.1)
+        with self.assertRaisesRegex(affskel.TimedOutError, "not at its end after 0 s"):
+            waiting.wait(timeout=0)
+
+    def test_a_pickled_job_is_the_same_job(self):
+        job = self.client(self.server()).submit(CUBE.encode(), spacing=.1).wait()
+        other = pickle.loads(pickle.dumps(job))
+        self.assertEqual((other, repr(other)), (job, repr(job)))
+        self.assertIsNot(other._session, job._session)
+        self.assertEqual(other.status().state, "done")
+
+    def test_a_face_that_is_there_twice_is_left_out_as_affskel_client_does(self):
+        corners = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
+        faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6),
+                 (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+        job = self.client(self.server()).submit((corners, [*faces, faces[0]]), spacing=.2)
+        self.assertIn("'mesh'", repr(job))  # also of a job that affskel-client submitted
+        self.assertIn("repeated-triangles", [note.code for note in job.wait().status().notes])
+
     def test_a_finished_job_tells_what_it_was(self):
         client = self.client(self.server())
         job = client.submit(CUBE.encode(), spacing=.1, priority=9).wait()
@@ -234,7 +260,8 @@ class Errors(WithDirectory):
     def test_it_is_told_as_affskel_client_tells_it(self):
         server = self.server()
         file = self.directory / "hole.off"
-        for text in (CUBE.replace("4 3 0 4 7", "4 3 0 4 8"), "OFF\n1 0 0\n0 0 zero\n", "OFF\n"):
+        for text in (CUBE.replace("4 3 0 4 7", "4 3 0 4 8"), CUBE.replace("1 0 0", "1 nan 0", 1),
+                     "OFF\n1 0 0\n0 0 zero\n", "OFF\n"):
             file.write_text(text)
             code, said = self.directory.client_error("--server", server.address, "submit", file)
             with self.assertRaises(affskel.BadInputError) as failure:

@@ -23,8 +23,8 @@ const core::RidgeSheet& RidgeOfField::sheet(double threshold) const {
   const auto known = sheets.find(options.bounds.low);
   if (known != sheets.end()) return known->second;
   return sheets
-      .emplace(options.bounds.low, core::ridge_sheet(field_.job().solid(), field_.lattice(),
-                                                     field_.in_frame(), basis(), options))
+      .emplace(options.bounds.low,
+               core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis(), options))
       .first->second;
 }
 
@@ -47,7 +47,8 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   core::BettiNumbers kept = sheet.lattice;
   kept.components -= sheet.fragments;
   const core::BettiNumbers of_solid{message.solid_components(), solid, message.solid_cavities()};
-  set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid), message);
+  const bool meet = kept != of_solid && core::surfaces_meet(field_.job().solid(), field_.context());
+  set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid, meet), message);
   if (!message.advice().empty() || cut) return;
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
   set_advice(core::small_skeleton_advice(field_.lattice(), basis().radius, vertices), message);

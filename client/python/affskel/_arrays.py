@@ -360,7 +360,8 @@ def points_of(message: types.SkeletonPoints) -> Points:
     return result
 
 
-def surface_of(message: types.TriangleMesh) -> Surface:
+def surface_of(message: types.TriangleMesh, always: Sequence[str] = ()) -> Surface:
+    """always: attributes that it has though it be empty."""
     vertices = _doubles(message.xyz, 3)
     corners = _wholes(message.corners)
     if len(corners) % 3 or (len(corners) and corners.max() >= len(vertices)):
@@ -374,7 +375,7 @@ def surface_of(message: types.TriangleMesh) -> Surface:
               "beyond": _doubles(message.beyond), "radius": _doubles(message.radius),
               "normal_a": _doubles(message.normal_a, 3),
               "normal_b": _doubles(message.normal_b, 3), "part": _wholes(message.part)}
-    attributes = {name: array for name, array in arrays.items() if len(array)}
+    attributes = {name: array for name, array in arrays.items() if len(array) or (name in always and not len(vertices))}
     if any(len(array) != len(vertices) for array in attributes.values()):
         raise InternalError("the server sent a damaged surface: a vertex without its attributes")
     quality: Optional[Dict[str, Any]] = plain(message.quality) if message.HasField("quality") else None

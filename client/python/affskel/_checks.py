@@ -53,6 +53,16 @@ def require_counts(text: bytes, file: str = "") -> None:
         raise BadInputError(f"the mesh has no {'points' if vertices < 1 else 'faces'}", file=file)
 
 
+def require_off(text: bytes, file: str = "") -> None:
+    """Raises BadInputError for bytes that do not begin as OFF text does, or end before the counts."""
+    words = re.sub(rb"#[^\n]*", b"", text).split(maxsplit=3)
+    if not words or re.fullmatch(rb"(ST)?C?N?4?n?OFF", words[0]) is None:
+        raise BadInputError(f"the mesh does not begin with OFF, but with {text[:20]!r}; as bytes, OFF text is taken, and a "
+                            "path as a text", file=file)
+    if len(words) < 3:
+        raise BadInputError("the mesh ends before it tells how many points and faces it has", file=file)
+
+
 def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
     """The different points, and which of them each is.
 
@@ -112,12 +122,8 @@ def require_finite(mesh: Polygons, file: str = "") -> None:
         raise BadInputError(f"vertex {int(np.argmax(bad))} is not finite", file=file)
 
 
-def require_closed(mesh: Polygons, file: str = "") -> None:
-    """Every edge needs two faces, where vertices at one place are one, as they are for the server.
-
-    Raises:
-        BadInputError: with the number of open edges and a place.
-    """
+def _edges(mesh: Polygons) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """The different points, a code of each edge between them, and how many faces it has."""
     places, which = _places(mesh.points)
     edges: List[npt.NDArray[np.int64]] = []
     for group in mesh.faces:
@@ -125,7 +131,21 @@ def require_closed(mesh: Polygons, file: str = "") -> None:
         sides = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
         low, high = np.sort(sides[sides[:, 0] != sides[:, 1]], axis=1).T
         edges.append(low * len(places) + high)
-    codes, count = np.unique(np.concatenate(edges), return_counts=True)
+    return (places, *np.unique(np.concatenate(edges), return_counts=True))
+
+
+def has_crowded_edges(mesh: Polygons) -> bool:
+    """Whether an edge has more than two faces: a face is there twice, say, or solids touch."""
+    return bool((_edges(mesh)[2] > 2).any())
+
+
+def require_closed(mesh: Polygons, file: str = "") -> None:
+    """Every edge needs two faces, where vertices at one place are one, as they are for the server.
+
+    Raises:
+        BadInputError: with the number of open edges and a place.
+    """
+    places, codes, count = _edges(mesh)
     alone = np.stack(np.divmod(codes[count == 1], len(places)), axis=1)
     if len(alone):
         a, b = (tuple(float(x) for x in places[vertex]) for vertex in alone[0])

@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Union
 
-from ._checks import MAX_POINTS, longest_side, number_of, require_closed, require_counts, require_finite, require_points, share_of, text_of
+from ._checks import MAX_POINTS, has_crowded_edges, longest_side, number_of, require_closed, require_counts, require_finite, require_off, require_points, share_of, text_of
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -52,8 +52,8 @@ _SPACING = ", in units of the mesh, or a share of its length such as '1%'"
 
 
 def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) -> bool:
-    """Whether affskel-client, which is there, must look at the mesh: it is a file of a kind that is not read here, or has
-    holes, which may be filled.
+    """Whether affskel-client, which is there, must look at the mesh: it is of a kind that is not read here, or has
+    holes or faces too many, which may be mended.
 
     Raises:
         BadInputError: what a worker would say of the mesh much later.
@@ -61,15 +61,23 @@ def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) ->
     if mesh.polygons is None:
         if mesh.file and find_program() is not None:
             return True
+        require_off(mesh.text or b"", mesh.file)
         require_counts(mesh.text or b"", mesh.file)
         return False
-    require_finite(mesh.polygons, mesh.file)
+    try:
+        require_finite(mesh.polygons, mesh.file)
+    except BadInputError:
+        if mesh.file and find_program() is not None:  # which tells the line
+            return True
+        raise
     try:
         require_closed(mesh.polygons, mesh.file)
     except BadInputError:
         if repair == "auto" and find_program() is not None:
             return True
         raise
+    if repair == "auto" and find_program() is not None and has_crowded_edges(mesh.polygons):
+        return True
     if spacing is not None:
         require_points(mesh.polygons, number_of(spacing, "spacing", _SPACING), mesh.file)
     return False
@@ -154,7 +162,7 @@ class Client:
             raise UsageError("spacing and points exclude each other")
         given = mesh_of(mesh)
         if given.text == b"":
-            raise BadInputError(f"{given.file or 'the mesh'} is empty")
+            raise BadInputError(f"{given.file or 'the mesh'} is empty", file=given.file)
         share = share_of(spacing)
         if share is not None and given.polygons is not None:
             require_finite(given.polygons, given.file)
@@ -293,4 +301,6 @@ class Client:
                 if given.file:
                     raise type(error)(message, file=error.file, line=error.line) from None
                 raise type(error)(message.replace(file, "the mesh")) from None  # the caller has no such file
-        return Job(self._session, document["id"], bool(document["existed"]), given.file)
+        job = Job(self._session, document["id"], bool(document["existed"]), given.file)
+        job.status()
+        return job

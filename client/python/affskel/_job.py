@@ -73,7 +73,8 @@ def _argument(value: str) -> str:
 
 
 class Job:
-    """A job on a server.  It holds nothing of the results: each call fetches what it returns.
+    """A job on a server.  It holds nothing of the results: each call fetches what it returns.  Pickled for another process,
+    it is the same job there, by a connection of its own.
 
     Results that are not stored yet are computed by a worker first, from the finished field.  Calls for results raise
     NotFoundError before the job is done, and all calls raise AffskelError when the server says no.
@@ -258,7 +259,7 @@ class Job:
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, level, volume)
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.corners), message.quality)
-        return self._saveable(surface_of(message), "erode", self.id, "--as", "surface", *_level_options(level, volume))
+        return self._saveable(surface_of(message, ("E", "area")), "erode", self.id, "--as", "surface", *_level_options(level, volume))
 
     def eroded_points(self, fraction: Union[float, str, None] = None, volume: Optional[float] = None, *,
                       timeout: Optional[float] = None) -> Points:

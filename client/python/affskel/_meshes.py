@@ -150,7 +150,11 @@ def off_text(vertices: Any, faces: Sequence[npt.NDArray[np.int64]]) -> bytes:
         faces: arrays (m, k) of indices into them.
     """
     try:
+        if np.asarray(vertices).dtype.kind == "c":
+            raise BadInputError("vertices are complex numbers; real ones are needed")
         points = np.asarray(vertices, dtype=np.float64)
+    except BadInputError:
+        raise
     except (TypeError, ValueError) as error:
         raise BadInputError(f"vertices are no numbers: {error}") from error
     if points.ndim != 2 or points.shape[1] != 3:

@@ -78,6 +78,10 @@ class Session:
         self._connection: Optional[Connection] = None
         self._proven = False  # the server answered at least once
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        """Another process gets a connection of its own to the server in use."""
+        return Session, (self.reached(), self._patience)
+
     @property
     def embedded(self) -> bool:
         return self._settings.address is None
@@ -219,6 +223,12 @@ class Session:
             timeout: seconds for the whole, after which TimedOutError is raised; None = as long as it takes.
         """
         deadline = _deadline(timeout)
+        if timeout is not None and timeout <= 0:  # no time for a stream, but a job at its end is
+            now = self.get_job(job)
+            yield now
+            if now.state in FINAL_STATES:
+                return
+            raise TimedOutError(f"the job was not at its end after {timeout:g} s; it goes on")
 
         while True:
             watch = self._run(lambda at: _Watch(at, service.WatchJobRequest(job=job), _left(deadline),

@@ -122,7 +122,7 @@ export function showProgress(bar, job) {
   bar.setAttribute('aria-label', `Progress of ${job.name}`);
   const { done, total } = progressOf(job);
   if (total > 0) bar.value = done / total;
-  else if (job.state === 'queued') bar.value = 0;
+  else if (job.state !== 'running') bar.value = 0; // where nothing goes on, nothing moves
   else bar.removeAttribute('value');
 }
 

@@ -37,7 +37,8 @@ export function measure(value) {
 export const editable = (value) => String(Number(value.toPrecision(6)));
 
 const kNumber = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
-const kGrouped = /^[+-]?\d{1,3}(,\d{3})+(\.\d*)?$/;
+// 0,500 is a half, as nobody groups a 0.
+const kGrouped = /^[+-]?[1-9]\d{0,2}(,\d{3})+(\.\d*)?$/;
 
 /**
  * A number as people type it: 1234.5, 1,234.5, 5,5 or 1e-3; NaN for what is none.

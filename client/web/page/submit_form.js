@@ -44,7 +44,7 @@ export class SubmitForm {
     this.mesh = mesh;
     this.seed = '1'; // of directions at random; as text, for it may have 20 digits
     this.given = 'points'; // which of the two was typed
-    this.name = h('input', { id: 'name', type: 'text', maxlength: 60, autocomplete: 'off', value: jobName(mesh.name) });
+    this.name = h('input', { id: 'name', type: 'text', maxlength: 200, autocomplete: 'off', value: jobName(mesh.name) });
     this.points = numberField('points', { value: kUsualPoints });
     this.spacing = numberField('spacing');
     this.lattice = h('p', { id: 'lattice', role: 'status' });

@@ -172,8 +172,14 @@ Advice on_significance(const ShockCensus& census, double significance) {
 }  // namespace
 
 Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
-                             const BettiNumbers& solid) {
+                             const BettiNumbers& solid, bool surfaces_meet) {
   if (of_lattice == solid) return {};
+  if (surfaces_meet) {
+    return {
+        "it has the " + words(of_lattice) + " of the sample points, the solid has " + words(solid) +
+            ": its surfaces cross or touch each other, and are counted each by itself, whereas what overlaps is one here.",
+        {}};
+  }
   return with_more_points(lattice, "it has the " + words(of_lattice) +
                                        " of the sample points, the solid has " + words(solid) +
                                        ": they are too few for something as thin as what differs.");
@@ -207,7 +213,8 @@ Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, 
   return {
       base::rounded(100 * *share, 2) +
           " % of the solid are farther from it than twice the thickness there, for want of a ridge as strong as the "
-          "threshold: in walls that are bent, as of a bowl or a mug, E grows up to the hollow side, and has none.",
+          "threshold: it may be weaker there, or none, as in walls that are bent, of a bowl or a mug, where E grows up to "
+          "the hollow side.",
       {}};
 }
 

@@ -46,9 +46,10 @@ Advice low_barriers_advice(std::span<const Triangle> triangles, std::span<const 
 
 /// That a skeleton of the lattice is not the solid's, where their pieces, tunnels or voids differ, and how many sample
 /// points to try; else nothing.
-/// @param of_lattice of the complex of its sample points, but for what is left out.
+/// @param of_lattice of the complex of its sample points, but for what is left out. @param surfaces_meet so that the
+///   solid's numbers count apart what is one: no number of points helps.
 Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_lattice,
-                             const BettiNumbers& solid);
+                             const BettiNumbers& solid, bool surfaces_meet = false);
 
 /// That the lattice has nowhere more than two points across the solid, or that the skeleton is hardly more than a point,
 /// and how many points to try where they may be too few; else nothing.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -51,14 +52,20 @@ Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
   SurfaceMesh wrap;
   StopVisitor visitor(options.context);
   const auto given = CGAL::parameters::default_values();
-  const auto stop = CGAL::parameters::visitor(std::ref(visitor));
+  std::vector<Point> seeds;  // none: from outside
+  if (options.from) seeds.emplace_back(options.from->x, options.from->y, options.from->z);
+  const auto stop = CGAL::parameters::visitor(std::ref(visitor)).seed_points(std::ref(seeds));
   if (triangles.empty()) {
     CGAL::alpha_wrap_3(points, options.alpha, options.offset, wrap, given, stop);
   } else {
     CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, wrap, given, stop);
   }
   Mesh wrapped = mesh_of(wrap);
+  if (wrapped.triangles.empty() && options.from) return wrapped;
   if (wrapped.triangles.empty()) refuse("the wrap is empty; take a smaller alpha");
+  // CGAL turns what bounds a cavity as if it bounded a solid.
+  if (options.from)
+    for (Triangle& t : wrapped.triangles) std::swap(t[1], t[2]);
   const std::vector<Vec3> normals = vertex_normals(wrapped);
   for (std::size_t v = 0; v < wrapped.points.size(); ++v)
     wrapped.points[v] = wrapped.points[v] - options.offset * normals[v];

@@ -9,10 +9,10 @@
 #include "core/mesh/box.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/unused_points.h"
-#include "core/repair/alpha_wrap.h"
 #include "core/repair/cloud_surface.h"
 #include "core/repair/fill_holes.h"
 #include "core/repair/orient_soup.h"
+#include "core/repair/wrap_solid.h"
 #include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
 
@@ -29,6 +29,9 @@ constexpr double kNoVolume = 1e-3;
 // Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more than
 // 0.5 % off when these were filled were beyond it, of those with many holes none.
 constexpr double kToldBulge = 0.003;
+constexpr std::uint64_t kManyFlaps = 10;
+constexpr double kMostFlat = 0.2;   // of the surface: flat parts that are left out though open
+constexpr double kToldWrap = 0.02;  // of the volume: walls and limbs of a few alphas differ by less
 
 std::string short_text(double value) {
   return base::rounded(value, 4);
@@ -38,8 +41,27 @@ std::string place_text(const Vec3& p) {
   return "(" + short_text(p.x) + ", " + short_text(p.y) + ", " + short_text(p.z) + ")";
 }
 
+// Of points that nothing uses, none is heeded.
 double diagonal(const Mesh& mesh) {
-  return box_of(mesh.points).diagonal();
+  return box_diagonal(mesh);
+}
+
+// Whether points lie in a plane, as those of a sheet in single precision do: in that through the first, the farthest from
+// it and the farthest from the line of these two.
+bool lie_in_a_plane(const Mesh& mesh, const std::vector<std::uint32_t>& points) {
+  constexpr double kRounding = 1e-6;  // of the length
+  if (points.empty()) return true;
+  const Vec3 first = mesh.points[points[0]];
+  Vec3 along{}, normal{};
+  const auto take_longer = [](Vec3& longest, const Vec3& one) {
+    if (norm(one) > norm(longest)) longest = one;
+  };
+  for (const std::uint32_t v : points) take_longer(along, mesh.points[v] - first);
+  for (const std::uint32_t v : points) take_longer(normal, cross(along, mesh.points[v] - first));
+  const double thickness = kRounding * norm(along) * norm(normal);
+  return std::all_of(points.begin(), points.end(), [&](std::uint32_t v) {
+    return std::fabs(dot(normal, mesh.points[v] - first)) <= thickness;
+  });
 }
 
 class Mending {
@@ -49,12 +71,22 @@ class Mending {
     orient(mesh);
     fill();
     drop_flaps();
+    tell_holes_left();
+    if (holds_nothing_ > 1) {
+      result_.left = (holds_nothing_ < parts_ ? std::to_string(holds_nothing_) + " of " : "") + "its " +
+                     std::to_string(parts_) +
+                     " parts do not hang together by edges, and by itself each bounds next to no volume";
+      result_.longest_left = 0;
+    }
   }
+
+  /// Whether all or most of its parts were open and hold nothing when filled, as flat ones do: what a wrap goes round may be no more.
+  bool holds_nothing() const { return holds_nothing_ > 0; }
 
   /// @throws CoreError kBadInput for an open sheet, but with lengths of one's own: filled, it would bound nothing, and
   ///   wrapped by an alpha that suits its length, a film.
   RepairedMesh result(const RepairOptions& asked) {
-    if (is_sheet_ && asked.alpha == 0 && asked.longest_hole == 0)
+    if (holds_nothing() && is_flat_sheet(result_.mesh) && asked.alpha == 0 && asked.longest_hole == 0)
       refuse(
           "the mesh is an open sheet and flat, so that it bounds no volume; give it a thickness, by "
           "Blender's Solidify, say, or wrap it by an alpha of your own");
@@ -88,16 +120,15 @@ class Mending {
   void fill() {
     const double area = surface_area(result_.mesh);
     FilledHoles filled = fill_holes(result_.mesh, {longest_, options_.context});
-    std::uint64_t count = 0, left = 0;
+    std::uint64_t count = 0;
     double added = 0;
-    const Hole *longest = nullptr, *longest_left = nullptr;
+    const Hole* longest = nullptr;
     for (const Hole& hole : filled.holes) {
-      (hole.filled ? count : left) += 1;
       added += hole.area;
       result_.bulge += hole.bulge;
-      const Hole*& seen = hole.filled ? longest : longest_left;
-      if (seen == nullptr) seen = &hole;
-      rims_.push_back(hole.point);
+      if (!hole.filled) continue;
+      ++count;
+      if (longest == nullptr) longest = &hole;
     }
     if (count > 0) {
       result_.longest_filled = longest->length;
@@ -106,19 +137,30 @@ class Mending {
                " round near " + place_text(longest->centre) + ", together " +
                short_text(100 * added / (area + added)) + " % of the surface");
     }
-    if (left > 0) {
-      // What is short enough could not be filled, nor what has too many edges: no greater length helps.
-      const bool too_long = longest_left->length > longest_ && longest_left->edges <= kMaxHoleEdges;
-      result_.longest_left = too_long ? longest_left->length : 0;
-      const std::string of_all = count > 0 ? " of " + std::to_string(count + left) : "";
-      result_.left = base::counted(left, "hole") + of_all + (left == 1 ? " is" : " are") +
-                     " left, the longest " + short_text(longest_left->length) + " round near " +
-                     place_text(longest_left->centre);
-      if (!too_long)
-        result_.left += ", of " + base::counted(longest_left->edges, "edge") + ", more than can be filled";
-    }
     result_.filled_share = added / (area + added);
     result_.mesh = std::move(filled.mesh);
+    holes_ = std::move(filled.holes);
+  }
+
+  // But those of what was left out.
+  void tell_holes_left() {
+    std::uint64_t left = 0;
+    const Hole* longest = nullptr;
+    for (const Hole& hole : holes_) {
+      if (hole.filled) continue;
+      ++left;
+      if (longest == nullptr) longest = &hole;
+    }
+    if (left == 0) return;
+    // What is short enough could not be filled, nor what has too many edges: no greater length helps.
+    const bool too_long = longest->length > longest_ && longest->edges <= kMaxHoleEdges;
+    result_.longest_left = too_long ? longest->length : 0;
+    const std::string of_all = left < holes_.size() ? " of " + std::to_string(holes_.size()) : "";
+    result_.left = base::counted(left, "hole") + of_all + (left == 1 ? " is" : " are") +
+                   " left, the longest " + short_text(longest->length) + " round near " +
+                   place_text(longest->centre);
+    if (!too_long)
+      result_.left += ", of " + base::counted(longest->edges, "edge") + ", more than can be filled";
   }
 
   // Triangles that hang together by edges.
@@ -131,14 +173,19 @@ class Mending {
     return parts;
   }
 
-  // Parts that were open and enclose next to nothing now.
+  // Parts that were open and enclose next to nothing now, or are open yet and flat.
   void drop_flaps() {
     Mesh& mesh = result_.mesh;
     DisjointSets parts = parts_of(mesh);
     const std::size_t count = mesh.triangles.size();
     std::vector<double> volume(count, 0), area(count, 0);
-    std::vector<bool> was_open(count, false), rim(mesh.points.size(), false);
-    for (const std::uint32_t v : rims_) rim[v] = true;
+    std::vector<bool> was_open(count, false), is_open(count, false);
+    std::vector<bool> rim(mesh.points.size(), false), rim_left(mesh.points.size(), false);
+    for (const Hole& hole : holes_) (hole.filled ? rim : rim_left)[hole.point] = true;
+    const auto on = [](const std::vector<bool>& points, const Triangle& t) {
+      return points[t[0]] || points[t[1]] || points[t[2]];
+    };
+    double whole_area = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       const Triangle& t = mesh.triangles[i];
       const std::uint32_t part = parts.find(i);
@@ -147,19 +194,49 @@ class Mending {
                  c = mesh.points[t[2]] - origin;
       volume[part] += dot(a, cross(b, c)) / 6;
       area[part] += 0.5 * norm(cross(b - a, c - a));
-      if (rim[t[0]] || rim[t[1]] || rim[t[2]]) was_open[part] = true;
+      whole_area += 0.5 * norm(cross(b - a, c - a));
+      if (on(rim, t)) was_open[part] = true;
+      if (on(rim_left, t)) is_open[part] = true;
     }
-    const auto is_flap = [&](std::uint32_t part) {
-      return was_open[part] && std::fabs(volume[part]) < kNoVolume * std::pow(area[part], 1.5);
-    };
+    std::vector<std::vector<std::uint32_t>> corners(count);  // of parts that are open yet
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t part = parts.find(i);
+      if (is_open[part])
+        corners[part].insert(corners[part].end(), mesh.triangles[i].begin(), mesh.triangles[i].end());
+    }
+    std::vector<bool> is_flap(count, false);
     std::uint64_t flaps = 0, sound = 0;
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (parts.find(i) == i && area[i] > 0) (is_flap(i) ? flaps : sound) += 1;
-    is_sheet_ = sound == 0 && is_flat_sheet(mesh);
-    if (flaps == 0 || sound == 0) return;
+    double flat_area = 0, flap_area = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (parts.find(i) != i || area[i] == 0) continue;
+      is_flap[i] = is_open[i] ? lie_in_a_plane(mesh, corners[i])
+                              : was_open[i] && std::fabs(volume[i]) < kNoVolume * std::pow(area[i], 1.5);
+      (is_flap[i] ? flaps : sound) += 1;
+      if (is_flap[i]) (is_open[i] ? flat_area : flap_area) += area[i];
+    }
+    parts_ = flaps + sound;
+    const double share = (flat_area + flap_area) / whole_area;
+    if (sound == 0 || (flaps >= kManyFlaps && share > 0.5)) holds_nothing_ = flaps;
+    // Sides of a solid, rather, which a wrap may join.
+    if (flaps == 0 || holds_nothing_ > 0 || (options_.kind == RepairKind::kWrap && share > kMostFlat)) return;
+    if (flat_area > kMostFlat * whole_area) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (!is_flap[i] || !is_open[i]) continue;
+        is_flap[i] = false;
+        --flaps;
+      }
+    }
     std::vector<Triangle> kept;
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (!is_flap(parts.find(i))) kept.push_back(mesh.triangles[i]);
+    std::vector<bool> on_flap(mesh.points.size(), false);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Triangle& t = mesh.triangles[i];
+      if (!is_flap[parts.find(i)]) {
+        kept.push_back(t);
+      } else {
+        on_flap[t[0]] = on_flap[t[1]] = on_flap[t[2]] = true;
+      }
+    }
+    std::erase_if(holes_, [&](const Hole& hole) { return !hole.filled && on_flap[hole.point]; });
     mesh.triangles = std::move(kept);
     drop_unused_points(mesh);
     tell("flaps", flaps, "part", " without volume left out");
@@ -167,13 +244,14 @@ class Mending {
 
   const RepairOptions& options_;
   double longest_ = 0;
-  bool is_sheet_ = false;  // all parts were open, and together they enclose nothing
+  std::uint64_t parts_ = 0;
+  std::uint64_t holds_nothing_ = 0;  // how many parts, where all or most were open, and enclose nothing
   RepairedMesh result_;
-  std::vector<std::uint32_t> rims_;  // of each hole a point
+  std::vector<Hole> holes_;  // longest first, but those of flaps
 };
 
-void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
-  const Mesh& mesh = result.mesh;
+void tell_wrap(const AlphaWrapOptions& wrap, SolidWrap wrapped, RepairedMesh& result) {
+  const Mesh& mesh = result.mesh = std::move(wrapped.mesh);
   DisjointSets pieces(mesh.points.size());
   auto count = static_cast<std::int64_t>(mesh.points.size());
   for (const Triangle& t : mesh.triangles)
@@ -182,11 +260,20 @@ void tell_wrap(const AlphaWrapOptions& wrap, RepairedMesh& result) {
   const auto characteristic =
       static_cast<std::int64_t>(mesh.points.size()) - static_cast<std::int64_t>(mesh.triangles.size() / 2);
   const auto handles = static_cast<std::uint64_t>(count - characteristic / 2);
+  std::string made = base::counted(static_cast<std::uint64_t>(count) - wrapped.kept, "piece");
+  if (handles > 0) made += " with " + base::counted(handles, "handle");
+  if (wrapped.kept > 0)
+    made += (handles > 0 ? " and " : " with ") + base::counted(wrapped.kept, "cavity", "cavities");
   result.steps.push_back({"wrapped", mesh.triangles.size(),
-                          "wrapped by " + base::counted(mesh.triangles.size(), "triangle") + " in " +
-                              base::counted(static_cast<std::uint64_t>(count), "piece") +
-                              (handles > 0 ? " with " + base::counted(handles, "handle") : "") +
+                          "wrapped by " + base::counted(mesh.triangles.size(), "triangle") + " in " + made +
                               ", hollows narrower than " + short_text(wrap.alpha) + " are closed"});
+  if (wrapped.closed > 0) {
+    result.steps.push_back({"closed-cavities", wrapped.closed,
+                            base::counted(wrapped.closed, "cavity", "cavities") +
+                                " closed, and what lies in them swallowed: too narrow for a ball of radius " +
+                                short_text(wrap.alpha) + ", or with walls that cross another surface"});
+  }
+  result.wrapped_volume = wrapped.volume;
 }
 
 // The surface through a cloud, with what was done for it. @return spacing of its points.
@@ -219,19 +306,27 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   wrap.context = options.context;
   wrap.alpha = kWrapDetail * diagonal(mesh);
   RepairedMesh result;
+  bool is_film = false;  // what is wrapped, unless its parts have others behind them
   if (mesh.triangles.empty()) {
     wrap.alpha = std::max(wrap.alpha, surface_cloud(mesh.points, options.context, result));
   } else {
     // Through a hole that is wider than alpha the wrap would enter.
     RepairOptions all = options;
     all.longest_hole = HUGE_VAL;
-    result = Mending(mesh, all).result(options);
+    Mending mending(mesh, all);
+    is_film = mending.holds_nothing();
+    result = mending.result(options);
     result.left.clear();
   }
   if (options.alpha > 0) wrap.alpha = options.alpha;
   wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
-  result.mesh = alpha_wrap(result.mesh, wrap);
-  tell_wrap(wrap, result);
+  tell_wrap(wrap, wrap_solid(result.mesh, wrap), result);
+  if (is_film && options.alpha == 0 &&
+      std::fabs(enclosed_volume(result.mesh)) < kNoVolume * std::pow(surface_area(result.mesh), 1.5)) {
+    refuse(
+        "the mesh consists of open sheets that bound no volume, and a wrap would be a film about them; give them a "
+        "thickness, by Blender's Solidify, say, or wrap them by an alpha of your own");
+  }
   return result;
 }
 
@@ -257,6 +352,15 @@ void face_outward(RepairedMesh& result, const RepairOptions& options) {
   }
 }
 
+void tell_wrapped_volume(RepairedMesh& result) {
+  const double before = result.wrapped_volume, more = result.volume / before - 1;
+  if (!(before > 0) || std::fabs(more) < kToldWrap) return;
+  result.steps.push_back({"wrap-volume", 1,
+                          "the wrap holds " + short_text(result.volume) + ", what it wraps " +
+                              short_text(before) + ": " + base::rounded(100 * std::fabs(more), 3) + " % " +
+                              (more > 0 ? "more" : "less")});
+}
+
 // Powers of lengths must not overflow, nor vanish.
 void check_size(const Mesh& mesh) {
   if (mesh.points.empty()) refuse("the mesh has no points");
@@ -271,9 +375,9 @@ void check_size(const Mesh& mesh) {
 }  // namespace
 
 bool is_flat_sheet(const Mesh& mesh) {
-  constexpr double kNothing =
-      1e-6;  // volume by area^(3/2), as kNoVolume: single precision gives a flat sheet 1e-7
-  return std::fabs(enclosed_volume(mesh)) < kNothing * std::pow(surface_area(mesh), 1.5);
+  std::vector<std::uint32_t> corners;
+  for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  return lie_in_a_plane(mesh, corners);
 }
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
@@ -287,6 +391,7 @@ RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
     result = Mending(mesh, options).result(options);
   }
   if (result.left.empty()) face_outward(result, options);
+  if (result.left.empty()) tell_wrapped_volume(result);
   return result;
 }
 

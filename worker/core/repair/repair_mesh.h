@@ -11,8 +11,8 @@ namespace affskel::core {
 
 enum class RepairKind {
   kMend,  ///< weld, orient, separate, fill holes, drop flaps; what is sound stays as it is
-  kWrap,  ///< a new surface round all of it, for what cannot be mended, or round the surface through points alone; see
-  ///< alpha_wrap, cloud_surface
+  kWrap,  ///< a new surface round all of it and in its cavities, for what cannot be mended, or that of the surface
+          ///< through points alone; see wrap_solid, cloud_surface
 };
 
 struct RepairOptions {
@@ -28,7 +28,7 @@ struct RepairOptions {
 struct RepairStep {
   /// Stable: "welded-points", "joined-points", "unused-points", "degenerate-triangles", "repeated-triangles",
   /// "t-junctions", "turned-triangles", "separated-points", "stitched-edges", "filled-holes", "bent-fillings", "flaps",
-  /// "turned-out", "turned-cavities", "lone-points", "surfaced", "wrapped".
+  /// "turned-out", "turned-cavities", "lone-points", "surfaced", "wrapped", "closed-cavities", "wrap-volume".
   std::string code;
   std::uint64_t count = 0;
   std::string message;  ///< with counts, lengths and places
@@ -41,11 +41,12 @@ struct RepairedMesh {
   double longest_filled = 0;  ///< length round the longest hole that was filled, mesh units
   double longest_left = 0;    ///< length round the longest hole that is left, mesh units; 0: no length helps
   double volume = 0;          ///< mesh units cubed; 0 where something is left
+  double wrapped_volume = 0;  ///< of the solid that was wrapped, mesh units cubed; 0: none, or unknown
   double bulge = 0;           ///< volume between what fills holes and soap films in them, mesh units cubed
   std::string left;           ///< what it still lacks, with what would help; empty: nothing
 };
 
-/// Whether a mesh is a flat sheet, which encloses nothing however its holes are filled.
+/// Whether all triangles of a mesh lie in a plane, so that they enclose nothing however their holes are filled.
 bool is_flat_sheet(const Mesh& mesh);
 
 /// Makes a mesh bound a solid, in steps that are told.

@@ -363,6 +363,14 @@ class SolidBuilder {
 
 }  // namespace
 
+bool surfaces_meet(const Solid& solid, ExecutionContext* context) {
+  if (!solid.self_intersecting || solid.shells.size() == 1) return false;
+  const auto pairs = self_intersections(solid.mesh, {32 * solid.mesh.triangles.size(), 1, context});
+  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+    return solid.triangle_shell[pair.first] != solid.triangle_shell[pair.second];
+  });
+}
+
 Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
                  const std::vector<std::uint32_t>& triangle_line) {
   std::vector<std::uint32_t> all(mesh.triangles.size());

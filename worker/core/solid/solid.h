@@ -62,6 +62,10 @@ struct Solid {
   double scale() const { return std::ldexp(1.0, exponent); }
 };
 
+/// Whether triangles of different surfaces cross or touch each other.  Looks for them again.
+/// @throws CoreError kCancelled when the context asks to stop.
+bool surfaces_meet(const Solid& solid, ExecutionContext* context = nullptr);
+
 /// Checks that the mesh bounds a solid and normalises it.
 /// @param vertex_line, triangle_line lines for messages (see OffMesh); may be empty.
 /// @throws CoreError kBadInput with the first place and cause: no triangles, open edges, edges with more

@@ -64,6 +64,15 @@ TEST_F(MeasureTest, WritesATable) {
   EXPECT_NE(shown.out.find("\n    1  limb          70"), std::string::npos) << shown.out;
 }
 
+TEST_F(MeasureTest, NumbersStandApartHoweverLong) {
+  v1::SolidParts parts = sample_parts();
+  parts.mutable_parts(1)->set_greatest_radius(0.5642);
+  parts.mutable_parts(1)->set_angle(0.000692);
+  service_.artifacts[v1::ARTIFACT_KIND_PARTS] = parts.SerializeAsString();
+  const Outcome outcome = run({"measure", "@last"});
+  EXPECT_NE(outcome.out.find("0.5642 0.000692  ("), std::string::npos) << outcome.out;
+}
+
 TEST_F(MeasureTest, ABallIsOnePart) {
   v1::SolidParts ball = sample_parts();
   ball.mutable_parts()->DeleteSubrange(1, 2);

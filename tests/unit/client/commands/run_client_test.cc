@@ -342,6 +342,30 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
         << wrong;
 }
 
+// Too narrow for the ball: the volume is another.
+TEST_F(ClientTest, CavitiesThatAWrapClosesAreWarnedOf) {
+  core::Mesh hollow = core::make_box(2000, 2000, 2000);
+  const core::Mesh cavity = core::make_box(1200, 1200, 1200);
+  const auto first = static_cast<std::uint32_t>(hollow.points.size());
+  for (const core::Vec3& place : cavity.points) hollow.points.push_back(place + core::Vec3{400, 400, 400});
+  for (const auto& [a, b, c] : cavity.triangles)
+    hollow.triangles.push_back({first + a, first + c, first + b});
+  tests::write_file(dir_ / "hollow.off", core::write_off(hollow));
+  const Outcome closed =
+      run({"--json", "repair", dir_ / "hollow.off", "--repair", "wrap=700", "-o", dir_ / "closed.off"});
+  ASSERT_EQ(closed.exit_code, 0) << closed.err;
+  const json warnings = json::parse(closed.out).at("warnings");
+  ASSERT_EQ(warnings.size(), 2U) << warnings;
+  EXPECT_EQ(warnings[0].at("code"), "closed-cavities");
+  EXPECT_EQ(warnings[1].at("code"), "wrap-volume");
+  const Outcome submitted = run({"submit", dir_ / "hollow.off", "--repair", "wrap=700"});
+  ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  EXPECT_NE(submitted.err.find("1 cavity closed"), std::string::npos) << submitted.err;
+  EXPECT_EQ(run({"repair", dir_ / "hollow.off", "--repair", "wrap=400", "-o", dir_ / "kept.off"})
+                .err.find("cavity closed"),
+            std::string::npos);
+}
+
 TEST_F(ClientTest, MeshesInOtherFormatsFaceOutward) {
   core::Mesh cube = core::make_box(2000, 2000, 2000, 2);
   for (core::Triangle& t : cube.triangles) std::swap(t[0], t[1]);

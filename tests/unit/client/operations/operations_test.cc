@@ -114,7 +114,8 @@ TEST_F(OperationsTest, ARepairedMeshIsSubmittedWithWhatItWas) {
   InputFile input = read_input(dir_ / "cube.off");
   const std::string before = input.bytes;
   input.off.mesh.triangles.pop_back();
-  const MeshSource source = replace_mesh(input, repair(input.off.mesh, "cube.off", {RepairChoice::Kind::kFill, 1e9}));
+  const MeshSource source =
+      replace_mesh(input, repair(input.off.mesh, "cube.off", {RepairChoice::Kind::kFill, 1e9}));
   EXPECT_EQ(source.bytes, before);
   submit(session_, environment_, input, &source, {});
   const v1::MeshRepair& sent = service_.submitted.repair();
@@ -126,6 +127,27 @@ TEST_F(OperationsTest, ARepairedMeshIsSubmittedWithWhatItWas) {
   EXPECT_EQ(service_.source, before);
   service_.max_mesh_bytes = input.bytes.size() - 1;
   EXPECT_THROW(submit(session_, environment_, input, &source, {}), ClientError);
+}
+
+TEST_F(OperationsTest, FewerDirectionsAreAdvisedForAWrap) {
+  core::Solid solid;
+  solid.mesh.triangles.resize(132'000);
+  const MeshSource wrapped{"", {{"wrapped", 132'000, "wrapped"}}},
+      filled{"", {{"filled-holes", 1, "filled"}}};
+  const Notices notices = direction_notices(solid, &wrapped, {});
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_EQ(notices[0].kind, Notice::Kind::kNote);
+  EXPECT_NE(notices[0].message.find("132000 directions"), std::string::npos) << notices[0].message;
+  ASSERT_EQ(notices[0].to_try.size(), 1U);
+  EXPECT_EQ(notices[0].to_try[0].name(), "directions");
+  EXPECT_TRUE(are_plain(notices));
+  EXPECT_TRUE(direction_notices(solid, &filled, {}).empty());
+  EXPECT_TRUE(direction_notices(solid, nullptr, {}).empty());
+  Submission asked;
+  asked.directions = "sphere:5000";
+  EXPECT_TRUE(direction_notices(solid, &wrapped, asked).empty());
+  solid.mesh.triangles.resize(5000);
+  EXPECT_TRUE(direction_notices(solid, &wrapped, {}).empty());
 }
 
 TEST_F(OperationsTest, TextsThatTheProtocolHasNoRoomForAreRefused) {

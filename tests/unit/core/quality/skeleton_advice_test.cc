@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "core/normal_block.h"
+#include "core/shapes/shapes.h"
+#include "core/solid/solid.h"
+#include "core/test_solids.h"
 
 namespace affskel::core {
 namespace {
@@ -166,6 +169,18 @@ TEST(CoarseLatticeAdvice, NamesWhatDiffersAndMorePoints) {
   EXPECT_TRUE(is_plain(advice));
 }
 
+TEST(CoarseLatticeAdvice, AdvisesNoPointsWhereSurfacesCross) {
+  const Mesh box = make_box(2, 2, 2);
+  EXPECT_TRUE(surfaces_meet(make_solid(joined(box, moved(box, {1, 1, 1})))));
+  EXPECT_FALSE(surfaces_meet(make_solid(joined(box, moved(box, {3, 1, 1})))));
+  NormalBlock block({10, 10, 10}, 0.5);
+  const Advice advice = coarse_lattice_advice(block.lattice, {1, 0, 0}, {2, 0, 0}, true);
+  EXPECT_TRUE(says(advice, "cross or touch each other, and are counted each by itself")) << advice.text;
+  EXPECT_FALSE(says(advice, "spacing")) << advice.text;
+  EXPECT_TRUE(advice.settings.empty());
+  EXPECT_TRUE(coarse_lattice_advice(block.lattice, {1, 0, 0}, {1, 0, 0}, true).text.empty());
+}
+
 TEST(SmallSkeletonAdvice, IsForSolidsOfTwoPointsAcross) {
   NormalBlock block({10, 10, 3}, 0.5);
   const Advice advice = small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 0.5f}, 1000);
@@ -202,6 +217,7 @@ TEST(BareSolidAdvice, IsForSolidsFarFromTheirSkeleton) {
   places.resize(1);  // farther than 9 spacings: all but 9 layers of 60, and of the tenth the middle
   const Advice advice = bare_solid_advice(block.lattice, radius, places, points);
   EXPECT_TRUE(says(advice, "85 % of the solid")) << advice.text;
+  EXPECT_TRUE(says(advice, "it may be weaker there, or none")) << "as in a table's flat top";
   EXPECT_TRUE(is_plain(advice));
   EXPECT_TRUE(bare_solid_advice(block.lattice, radius, {}, {}).text.empty());
 }

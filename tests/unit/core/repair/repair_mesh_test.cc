@@ -58,6 +58,63 @@ TEST(RepairMesh, RefusesAFlatSheetAndAWrapOfIt) {
   EXPECT_NO_THROW(repair_mesh(make_box(1, 1, 1e-8))) << "a plate";
 }
 
+// Of a cone without its base the volume seems none from its tip.
+TEST(RepairMesh, CallsFlatWhatLiesInAPlane) {
+  const Mesh tip{{{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
+  EXPECT_FALSE(is_flat_sheet(tip));
+  EXPECT_NE(repair_mesh(tip).left.find("1 hole is left"), std::string::npos) << repair_mesh(tip).left;
+  EXPECT_NEAR(repair_mesh(tip, {.longest_hole = 9}).volume, 1.0 / 6, 1e-12);
+  EXPECT_TRUE(is_flat_sheet({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {5, 5, 5}}, {{0, 1, 2}}}))
+      << "but for a point";
+}
+
+// Each triangle by itself, which no step joins.
+TEST(RepairMesh, WrapsABoxOfLooseTriangles) {
+  const Mesh box = make_box(2, 2, 2, 4);
+  SplitMix64 random(1);
+  const auto jitter = [&] { return 1e-4 * static_cast<double>(random.next() % 1000) / 1000; };
+  Mesh loose, half;  // half: those on one side of the middle hang together
+  for (const Triangle& t : box.triangles) {
+    const auto first = static_cast<std::uint32_t>(loose.points.size());
+    const bool is_low = box.points[t[0]].z + box.points[t[1]].z + box.points[t[2]].z < 2;
+    for (const std::uint32_t v : t) {
+      loose.points.push_back(box.points[v] + Vec3{jitter(), jitter(), jitter()});
+      half.points.push_back(is_low ? box.points[v] : loose.points.back());
+    }
+    loose.triangles.push_back({first, first + 1, first + 2});
+  }
+  half.triangles = loose.triangles;
+  for (const Mesh& mesh : {loose, half}) {
+    const std::string left = repair_mesh(mesh).left;
+    EXPECT_NE(left.find(" parts do not hang together by edges"), std::string::npos) << left;
+  }
+  for (const Mesh& mesh : {loose, half})
+    EXPECT_NEAR(repair_mesh(mesh, {.kind = RepairKind::kWrap}).volume, 8, 0.01);
+  // Two sheets with nothing between them.
+  const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  EXPECT_THROW(repair_mesh(joined(sheet, moved(sheet, {0, 0, 1})), {.kind = RepairKind::kWrap}), CoreError);
+}
+
+TEST(RepairMesh, DropsFlapsThatAreLongerRoundThanHolesMayBe) {
+  const auto with_fin = [](double side) {
+    return joined(make_box(2, 2, 2), {{{0, 0, 0}, {0, 0, 2}, {side, side, 3}}, {{0, 1, 2}}});
+  };
+  const RepairedMesh repaired = repair_mesh(with_fin(3));
+  EXPECT_EQ(repaired.left, "");
+  ASSERT_NE(step(repaired, "flaps"), nullptr);
+  EXPECT_NEAR(repaired.volume, 8, 1e-12);
+  EXPECT_NE(repair_mesh(with_fin(9)).left, "") << "a side of something";
+}
+
+TEST(RepairMesh, PointsThatNothingUsesLengthenNoHole) {
+  Mesh open = make_box(1, 1, 1);
+  open.triangles.erase(open.triangles.begin(), open.triangles.begin() + 2);
+  const std::string left = repair_mesh(open).left;
+  EXPECT_NE(left, "");
+  open.points.push_back({50, 0, 0});
+  EXPECT_EQ(repair_mesh(open).left, left);
+}
+
 TEST(RepairMesh, LeavesASoundMeshAsItIs) {
   const Mesh body = make_body();
   const RepairedMesh repaired = repair_mesh(body);
@@ -221,6 +278,36 @@ TEST(RepairMesh, AWrapHasTheVolumeOfWhatItWraps) {
   const Mesh open = cut(cut(body, body.points[17], 40), body.points[900], 30);
   const RepairedMesh repaired = repair_mesh(open, {.kind = RepairKind::kWrap, .alpha = 20});
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(body), 1, 0.02);
+}
+
+// A ball, in it a ball's cavity, in that a ball with a cavity of its own.
+TEST(RepairMesh, AWrapKeepsCavitiesAndWhatLiesInThem) {
+  const auto ball = [](double radius) { return make_sphere(radius, 1280); };
+  const Mesh onion = joined(joined(ball(10), reversed(ball(8))), joined(ball(5), ball(3)));
+  const RepairedMesh repaired = repair_mesh(onion, {.kind = RepairKind::kWrap, .alpha = 0.5});
+  EXPECT_NEAR(repaired.volume / repair_mesh(onion).volume, 1, 0.01);
+  ASSERT_NE(step(repaired, "wrapped"), nullptr);
+  EXPECT_NE(step(repaired, "wrapped")->message.find("in 2 pieces with 2 cavities"), std::string::npos)
+      << step(repaired, "wrapped")->message;
+  for (const char* code : {"turned-cavities", "closed-cavities", "wrap-volume"})
+    EXPECT_EQ(step(repaired, code), nullptr) << code;
+  EXPECT_TRUE(make_solid(repaired.mesh).notes.empty());
+}
+
+TEST(RepairMesh, AWrapTellsCavitiesThatItCloses) {
+  const Mesh box = make_box(4, 4, 4);
+  const Mesh hollow = joined(box, reversed(moved(make_box(2, 2, 2), {1, 1, 1})));
+  const RepairedMesh coarse = repair_mesh(hollow, {.kind = RepairKind::kWrap, .alpha = 1.5});
+  ASSERT_NE(step(coarse, "closed-cavities"), nullptr);
+  EXPECT_EQ(step(coarse, "closed-cavities")->count, 1U);
+  ASSERT_NE(step(coarse, "wrap-volume"), nullptr);
+  EXPECT_NE(step(coarse, "wrap-volume")->message.find("what it wraps 56"), std::string::npos)
+      << step(coarse, "wrap-volume")->message;
+  // A beam through the cavity: how much they hold is not known, for overlaps count twice.
+  const Mesh pierced = joined(hollow, moved(make_box(8, 0.5, 0.5), {-2, 1.75, 1.75}));
+  const RepairedMesh beside = repair_mesh(pierced, {.kind = RepairKind::kWrap, .alpha = 0.2});
+  EXPECT_NE(step(beside, "closed-cavities"), nullptr);
+  EXPECT_EQ(step(beside, "wrap-volume"), nullptr);
 }
 
 // A hole of many edges, or a wrap, takes seconds by itself.

@@ -98,7 +98,7 @@ class PlyReader {
         has_vertices = true;
       } else if (element.name == "face") {
         read_faces(element);
-      } else if (element.name == "edge") {
+      } else if (element.name == "edge" && has_ends(element)) {
         read_edges(element);
       } else {
         pass_over(element);
@@ -224,13 +224,19 @@ class PlyReader {
     }
   }
 
+  static bool is_end(const PlyProperty& p) { return !p.list && (p.name == "vertex1" || p.name == "vertex2"); }
+
+  static bool has_ends(const PlyElement& edges) {
+    return std::any_of(edges.properties.begin(), edges.properties.end(), is_end);
+  }
+
   // The ends of edges are called vertex1 and vertex2; what else an edge has is passed over.
   void read_edges(const PlyElement& element) {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       values_.begin(element.name, i);
       corners_.clear();
       for (const PlyProperty& p : element.properties) {
-        if (!p.list && (p.name == "vertex1" || p.name == "vertex2")) {
+        if (is_end(p)) {
           corners_.push_back(whole_index(values_.next(*p.type)));
         } else {
           pass_over(p);

@@ -163,6 +163,24 @@ TEST(ParseShape, ElementsOfPlyThatArePassedOverAreTold) {
   EXPECT_EQ(shape.off.passed_over[0].first_line, 15U);
 }
 
+// As some programs write creases.
+TEST(ParseShape, EdgesOfPlyWithoutEndsArePassedOver) {
+  const auto shape = [](const std::string& ends) {
+    return parse_shape(
+        ".ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nelement edge 1\n" +
+            ends + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0 1\n");
+  };
+  const ShapeFile creased = shape("property int v1\nproperty int v2\n");
+  EXPECT_EQ(creased.mesh().triangles.size(), 1U);
+  EXPECT_TRUE(creased.segments.empty());
+  ASSERT_EQ(creased.off.passed_over.size(), 1U);
+  EXPECT_EQ(creased.off.passed_over[0].word, "'edge'");
+  EXPECT_EQ(shape("property int vertex1\nproperty int vertex2\n").segments.size(), 1U);
+  EXPECT_THROW(shape("property int vertex1\nproperty int v2\n"), CoreError) << "one end";
+}
+
 // The last faces of a PLY file are curves where a comment says so, and where they look like them.
 TEST(ParseShape, FacesOfTwoCornersAreCurvesWhereThatIsSaid) {
   const auto ply = [](const std::string& comment, const std::string& last) {
