@@ -165,8 +165,8 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
 SheetLines with_joints(const SheetLines& lines, std::span<const char> ends, std::span<const double> balls,
                        double spacing, std::vector<Vec3>& places, ExecutionContext* context) {
   const SheetLines zipped =
-      zipped_lines(joined_links(lines, places, balls), ends, balls, spacing, places, context);
-  return joined_links(zipped, places, balls);
+      zipped_lines(joined_links(lines, places, balls, context), ends, balls, spacing, places, context);
+  return joined_links(zipped, places, balls, context);
 }
 
 // In the frame's coordinates.
