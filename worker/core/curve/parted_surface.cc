@@ -22,35 +22,24 @@ namespace {
 
 constexpr std::int32_t kFarthest = 4;  // steps
 
-class PointsOfLattice {
- public:
-  explicit PointsOfLattice(const Lattice& lattice) : band_(lattice, 0), rank_(ranks_in(band_, lattice)) {}
+std::uint32_t nearest_within(const NearPoints& points, const Vec3& at, std::int32_t reach) {
+  double least = double(reach) * reach;
+  std::uint32_t found = kNone;
+  points.any_near(at, reach, [&](std::uint32_t rank, double square) {
+    if (square > least || (square == least && found != kNone)) return false;
+    least = square;
+    found = rank;
+    return false;
+  });
+  return found;
+}
 
-  // @param at real indices.
-  std::uint32_t nearest(const Vec3& at) const {
-    for (std::int32_t reach = 1; reach <= kFarthest; reach *= 2)
-      if (const std::uint32_t found = nearest_within(at, reach); found != kNone) return found;
-    return kNone;
-  }
-
- private:
-  std::uint32_t nearest_within(const Vec3& at, std::int32_t reach) const {
-    double least = double(reach) * reach;
-    std::uint32_t found = kNone;
-    band_.any_near(at, reach, [&](std::size_t place, double square) {
-      const std::uint32_t rank = rank_[place];
-      if (rank == kNone || square > least) return false;
-      if (square == least && found != kNone) return false;
-      least = square;
-      found = rank;
-      return false;
-    });
-    return found;
-  }
-
-  RowBand band_;
-  std::vector<std::uint32_t> rank_;  // per place of the band
-};
+// @param at real indices.
+std::uint32_t nearest_point(const NearPoints& points, const Vec3& at) {
+  for (std::int32_t reach = 1; reach <= kFarthest; reach *= 2)
+    if (const std::uint32_t found = nearest_within(points, at, reach); found != kNone) return found;
+  return kNone;
+}
 
 class CutTriangles {
  public:
@@ -83,7 +72,7 @@ class CutTriangles {
     stop_.did(100);
     const Vec3 along = place(t[1]) - place(t[0]), across = place(t[2]) - place(t[0]);
     const Vec3 outward = unit(cross(along, across));
-    return points_.nearest(indices_(place(t[0]) + u * along + v * across - 0.5 * spacing_ * outward));
+    return nearest_point(points_, indices_(place(t[0]) + u * along + v * across - 0.5 * spacing_ * outward));
   }
 
   // The triangle, its longest edge first: of equal ones that of the lesser corners, so that neighbours agree.
@@ -197,7 +186,7 @@ class CutTriangles {
     mixed_.push_back(may_mix && mixed(t) ? 1 : 0);
   }
 
-  const PointsOfLattice points_;
+  const NearPoints points_;
   const LatticeIndices indices_;
   const double spacing_;  // scaled units
   const std::span<const std::uint32_t> part_;
