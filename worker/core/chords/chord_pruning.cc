@@ -42,7 +42,7 @@ class Paths {
   Paths(const std::vector<ChordShock>& shocks, const EdgeCells& cells, std::vector<std::uint32_t> piece)
       : shocks_(shocks), cells_(cells), ways_(std::move(piece)) {
     ways_.find([&](std::uint32_t cell, const auto& go) {
-      for (const std::uint32_t s : cells.edges_of(cell)) {
+      for (const std::uint32_t s : cells.edges[cell]) {
         const auto& ring = cells.ring[s];
         const auto n = static_cast<std::uint32_t>(std::find(ring.begin(), ring.end(), cell) - ring.begin());
         for (const std::uint32_t next : ring) go(next, cost(shocks[s]), 4 * s + n);
@@ -133,7 +133,7 @@ class Pruning {
   void join_touching() {
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
       std::uint32_t first = kNone;
-      for (std::uint32_t s : cells_.edges_of(cell)) {
+      for (std::uint32_t s : cells_.edges[cell]) {
         if (!strong(s)) continue;
         if (first == kNone) first = s;
         pieces_.unite(first, s);
