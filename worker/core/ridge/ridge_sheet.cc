@@ -279,7 +279,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
   // One after the other: each takes about as much memory as all that is kept, and beside each other they save a fifth of
   // the time at most.
   basis.topology = betti_numbers(basis.complex, context);
-  basis.radius = surface_distance(lattice);
+  basis.radius = surface_distance(lattice, context);
   if (solid.self_intersecting) basis.thickness = section_radii(field);
   {
     const auto tips = [&](std::span<const DualComplex::Cell> cuts) {

@@ -252,7 +252,7 @@ std::vector<std::uint8_t> reaches(const std::vector<float>& depth, const std::ve
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
                                                    unsigned threads, ExecutionContext* context,
                                                    const RidgeWidths& widths) {
-  std::vector<float> depth = local_depth(lattice, field);
+  std::vector<float> depth = local_depth(lattice, field, context);
   double widest = widths.least;
   for (const float d : depth) widest = std::max(widest, widths.at(static_cast<double>(d)));
   throw_if_stopped(context);
