@@ -55,7 +55,7 @@ core::PointIndex resolved_places(const Job& job) {
   const Cloud all = all_points(job);
   std::vector<core::Vec3> places;
   for (std::size_t p = 0; p < all.size(); ++p)
-    if (radius[all.rank[p]] >= core::RidgeConstants{}.min_radius) places.push_back(all.place[p]);
+    if (radius[all.rank[p]] >= core::RidgeConstants::min_radius) places.push_back(all.place[p]);
   return core::PointIndex(places);
 }
 

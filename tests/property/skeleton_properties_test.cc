@@ -190,7 +190,7 @@ RC_GTEST_PROP(SkeletonProperties, RidgeHasTheTopologyOfTheLattice, ()) {
   RC_ASSERT(topology(ridge) == expected);
   if (eroded.solid.self_intersecting) return;  // what noise has bored is filled
   expected = topology(basis.topology);
-  expected[1] -= ridge.filled.number;
+  expected[1] -= ridge.filled.edges.size();
   RC_ASSERT(topology(ridge.lattice) == expected);
 }
 

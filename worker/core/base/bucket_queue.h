@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,14 +13,16 @@ namespace affskel::core {
 /// A queue by small whole numbers that only grow from one item taken to the next (a monotone bucket queue:
 /// Dial 1969).  What is put in below the number of the last item taken counts as having that one.  Items of
 /// one number leave in the order in which they came.  Buckets are lists of small blocks that are used again: as
-/// arrays that double they would be the largest of a collapse.
+/// arrays that double they would be the largest of a collapse.  There is a ring of them for the next kNear numbers, and a
+/// map for what lies farther: an array would have one for each number up to the greatest, with items or not.
 template <class Item>
 class BucketQueue {
  public:
   void push(std::size_t number, Item item) {
     number = std::max(number, current_);
-    if (number >= buckets_.size()) buckets_.resize(number + 1);
-    Bucket& bucket = buckets_[number];
+    const bool is_near = number - current_ < kNear;
+    Bucket& bucket = is_near ? near(number) : far_[number];
+    if (is_near) ++near_items_;
     const std::size_t place = bucket.end % kItems;
     if (place == 0) append_block(bucket);
     bucket.last->items[place] = std::move(item);
@@ -29,7 +32,8 @@ class BucketQueue {
   /// @return false when nothing is left.
   bool pop(Item& item) {
     if (!find_next()) return false;
-    Bucket& bucket = buckets_[current_];
+    Bucket& bucket = near(current_);
+    --near_items_;
     item = std::move(bucket.first->items[bucket.begin % kItems]);
     if (++bucket.begin % kItems == 0) drop_block(bucket);
     return true;
@@ -41,7 +45,8 @@ class BucketQueue {
   bool pop_wave() {
     clear(wave_);
     if (!find_next()) return false;
-    std::swap(wave_, buckets_[current_]);
+    std::swap(wave_, near(current_));
+    near_items_ -= wave_.end - wave_.begin;
     return true;
   }
 
@@ -58,6 +63,8 @@ class BucketQueue {
   /// The number of the last item taken.
   std::size_t current() const { return current_; }
 
+  static constexpr std::size_t kNear = 4096;
+
  private:
   static constexpr std::size_t kItems = 32, kBlocks = 64;  // of a block, and blocks made at a time
 
@@ -72,14 +79,21 @@ class BucketQueue {
     std::size_t begin = 0, end = 0;
   };
 
+  Bucket& near(std::size_t number) { return near_[number % kNear]; }
+
   // Goes on to the first bucket that has an item.
   bool find_next() {
-    for (; current_ < buckets_.size(); ++current_) {
-      if (buckets_[current_].begin < buckets_[current_].end) return true;
-      clear(buckets_[current_]);
+    while (near(current_).begin == near(current_).end) {
+      clear(near(current_));
+      if (near_items_ == 0 && far_.empty()) return false;
+      current_ = near_items_ > 0 ? current_ + 1 : far_.begin()->first;
+      for (; !far_.empty() && far_.begin()->first - current_ < kNear; far_.erase(far_.begin())) {
+        const auto& [number, bucket] = *far_.begin();
+        near_items_ += bucket.end;
+        near(number) = bucket;
+      }
     }
-    if (current_ > 0) --current_;  // what comes now counts as having the last item's number
-    return false;
+    return true;
   }
 
   void append_block(Bucket& bucket) {
@@ -105,7 +119,10 @@ class BucketQueue {
 
   std::vector<std::unique_ptr<Blocks>> store_;
   Block* unused_ = nullptr;
-  std::vector<Bucket> buckets_;
+  std::vector<Bucket> near_ =
+      std::vector<Bucket>(kNear);  // of current_ .. current_ + kNear - 1, by their remainders
+  std::size_t near_items_ = 0;
+  std::map<std::size_t, Bucket> far_;
   Bucket wave_;
   std::size_t current_ = 0;
 };

@@ -1,9 +1,6 @@
 // Step 3 of chord_pruning.h joins pieces as cheapest_ways.h tells.  A shock costs 1 / (r w): 1 for opposite
 // normals, 4 at 60 degrees, 100 and more between two facets.
 //
-// Step 4 fills a hole only where the rim shrinks: without that rule, a sheet that goes from one layer of
-// cells to the next fills up with the facets in between.
-//
 // The significance of 0.005, at height / 190 on 11 bodies of 292 to 8560 triangles, leaves one component on
 // all in the frame `axis` and on nine in `affine`; 0.02 leaves one on all in both.
 #include "core/chords/chord_pruning.h"
@@ -17,7 +14,6 @@
 #include "core/base/none.h"
 #include "core/base/require.h"
 #include "core/chords/chord_edge.h"
-#include "core/chords/chord_squares.h"
 #include "core/contour/edge_cells.h"
 
 namespace affskel::core {
@@ -46,7 +42,7 @@ class Paths {
   Paths(const std::vector<ChordShock>& shocks, const EdgeCells& cells, std::vector<std::uint32_t> piece)
       : shocks_(shocks), cells_(cells), ways_(std::move(piece)) {
     ways_.find([&](std::uint32_t cell, const auto& go) {
-      for (const std::uint32_t s : cells.edges_of(cell)) {
+      for (const std::uint32_t s : cells.edges[cell]) {
         const auto& ring = cells.ring[s];
         const auto n = static_cast<std::uint32_t>(std::find(ring.begin(), ring.end(), cell) - ring.begin());
         for (const std::uint32_t next : ring) go(next, cost(shocks[s]), 4 * s + n);
@@ -94,8 +90,7 @@ class Pruning {
  public:
   Pruning(const Lattice& lattice, const SolidParts& parts, const std::vector<ChordShock>& shocks,
           double significance, const ChordConstants& constants)
-      : parts_(parts),
-        shocks_(shocks),
+      : shocks_(shocks),
         significance_(significance),
         constants_(constants),
         cells_(cells_of(lattice, parts, shocks)),
@@ -112,8 +107,6 @@ class Pruning {
     join_touching();
     keep_significant();
     join_kept();
-    while (fill_holes()) {
-    }
     for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
       if (kept(s)) result_.shocks.push_back(shocks_[s]);
     }
@@ -140,7 +133,7 @@ class Pruning {
   void join_touching() {
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
       std::uint32_t first = kNone;
-      for (std::uint32_t s : cells_.edges_of(cell)) {
+      for (std::uint32_t s : cells_.edges[cell]) {
         if (!strong(s)) continue;
         if (first == kNone) first = s;
         pieces_.unite(first, s);
@@ -209,39 +202,6 @@ class Pruning {
     });
   }
 
-  // Adds all shocks at once, so that their order does not matter; returns whether there were any.
-  bool fill_holes() {
-    std::vector<std::uint8_t> used(cells_.size(), 0);
-    std::vector<std::uint32_t> sheet;
-    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-      if (!kept(s)) continue;
-      sheet.push_back(s);
-      for (std::uint32_t cell : cells_.ring[s]) used[cell] = 1;
-    }
-    const std::vector<RimSquare> rim = rim_squares(parts_, shocks_, sheet);
-    bool any = false;
-    for (std::uint32_t s = 0; s < shocks_.size(); ++s) {
-      const auto& ring = cells_.ring[s];
-      if (kept(s) || !std::all_of(ring.begin(), ring.end(), [&](std::uint32_t c) { return used[c] != 0; }))
-        continue;
-      if (rim_round(s, rim) < kMinRimSquares) continue;
-      owner_[s] = s;
-      any = true;
-    }
-    return any;
-  }
-
-  // How many of the squares round a shock's edge lie on the rim.
-  std::size_t rim_round(std::uint32_t s, const std::vector<RimSquare>& rim) const {
-    std::size_t count = 0;
-    for (const LatticeElement& square : squares_round(edge_of(shocks_[s], parts_))) {
-      const auto found = std::lower_bound(rim.begin(), rim.end(), RimSquare{square, 0});
-      count += found != rim.end() && found->first == square ? 1 : 0;
-    }
-    return count;
-  }
-
-  const SolidParts& parts_;
   const std::vector<ChordShock>& shocks_;
   double significance_;
   const ChordConstants& constants_;

@@ -34,9 +34,8 @@ struct SignificantShocks {
 /// Keeps the shocks that matter, by hysteresis:
 /// 1. strong shocks that touch form pieces; pieces near each other (near_cost) are weighed as one;
 /// 2. pieces below the significance are dropped;
-/// 3. the others are joined by the cheapest paths through weaker shocks, as far as there are any;
-/// 4. holes are filled: a weaker shock is kept when all four cells round its edge hold kept shocks and at
-///    least kMinRimSquares of the squares lie on the rim (see chord_squares.h), until there is none left.
+/// 3. the others are joined by the cheapest paths through weaker shocks, as far as there are any.
+/// Holes are left to pinhole_shocks().
 /// A function of r, E, w and N alone, affinely invariant when these are.  Each part of the solid keeps what
 /// it would keep alone.  O(n log n) for n candidates.
 /// @param parts of the solid in this lattice.

@@ -69,7 +69,7 @@ class TurnGauge {
     std::vector<double> mean(cells_.size(), 0);
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
       double sum = 0, whole = 0;
-      for (std::uint32_t s : cells_.edges_of(cell)) {
+      for (std::uint32_t s : cells_.edges[cell]) {
         const double share = squares_of(shocks_[s]) * shocks_[s].turn;
         sum += share * shocks_[s].turn;
         whole += share;

@@ -28,7 +28,7 @@ std::vector<std::uint32_t> realms(const DualComplex& complex, std::span<const Re
   for (std::uint32_t n = 0; n < seeds.size(); ++n) reach(seeds[n].cube, greatest - seeds[n].radius, n);
   StopCheck stop(context);
   for (Step at; front.pop(at); stop.did(100)) {
-    if (realm[at.cube] != kNone) continue;
+    if (at.way > way[at.cube]) continue;  // another is nearer
     realm[at.cube] = at.seed;
     complex.for_each_step(at.cube, [&](std::uint32_t to, std::uint32_t steps) {
       reach(to, at.way + kStepLength[steps], at.seed);

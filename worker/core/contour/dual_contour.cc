@@ -64,7 +64,7 @@ class Contouring {
 
  private:
   Vec3 place(std::uint32_t cell) const {
-    const std::span<const std::uint32_t> members = cells_.edges_of(cell);
+    const std::span<const std::uint32_t> members = cells_.edges[cell];
     const Vec3& reference = crossings_[members[0]].normal;
     const double share = 1 / static_cast<double>(members.size());
     Vec3 mean, normal;
@@ -93,7 +93,7 @@ class Contouring {
 
   Vec3 kept_inside(std::uint32_t cell, const Vec3& wanted) const {
     if (interior_.contains(cells_.part[cell], wanted)) return wanted;
-    const std::span<const std::uint32_t> members = cells_.edges_of(cell);
+    const std::span<const std::uint32_t> members = cells_.edges[cell];
     Vec3 mean, nearest = crossings_[members[0]].position;
     for (std::uint32_t s : members) {
       const Vec3& crossing = crossings_[s].position;
@@ -131,7 +131,7 @@ SheetMesh dual_contour(const Lattice& lattice, const SolidParts& parts, const Ed
   SheetMesh sheet;
   sheet.vertices.reserve(places.size());
   for (std::uint32_t cell = 0; cell < cells.size(); ++cell) {
-    sheet.vertices.push_back(vertex_of(places[cell], cells.edges_of(cell)));
+    sheet.vertices.push_back(vertex_of(places[cell], cells.edges[cell]));
     sheet.vertices.back().position = places[cell];
   }
   sheet.triangles.reserve(2 * crossings.size());

@@ -27,7 +27,6 @@ struct EdgeCells {
   std::vector<std::array<std::uint32_t, 4>> ring;  ///< per edge: its cells, once round
 
   std::size_t size() const { return place.size(); }
-  std::span<const std::uint32_t> edges_of(std::uint32_t cell) const { return edges[cell]; }
 };
 
 /// @param complex, parts of this lattice.

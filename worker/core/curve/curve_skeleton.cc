@@ -59,8 +59,10 @@ std::vector<double> balls_of(const Lattice& lattice, const RidgeBasis& basis, co
 
 // A flat limb, about as wide as long, mostly has no tip of its own.  Its reach is how far it leads out of the balls about
 // the lines that there are without it.
-void add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, double least_reach,
+// @return whether there are any.
+bool add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, double least_reach,
                     const SheetLines& lines, LimbEnds& ends) {
+  bool any = false;
   for (const HangingPatch& patch : hanging_patches(ridge, balls, ends.has_tip)) {
     const Vec3& end = ridge.vertices[patch.end].position;
     double outside = std::numeric_limits<double>::infinity();
@@ -71,7 +73,9 @@ void add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, doub
     ends.is_end[patch.end] = 1;
     ends.tip[patch.end] = end;
     ends.least_reach = std::min(ends.least_reach, reach);
+    any = true;
   }
+  return any;
 }
 
 // Of their tips, frame coordinates.
@@ -165,8 +169,8 @@ void give_points(const RidgeBasis& basis, const RidgeSheet& ridge, std::span<con
 SheetLines with_joints(const SheetLines& lines, std::span<const char> ends, std::span<const double> balls,
                        double spacing, std::vector<Vec3>& places, ExecutionContext* context) {
   const SheetLines zipped =
-      zipped_lines(joined_links(lines, places, balls), ends, balls, spacing, places, context);
-  return joined_links(zipped, places, balls);
+      zipped_lines(joined_links(lines, places, balls, context), ends, balls, spacing, places, context);
+  return joined_links(zipped, places, balls, context);
 }
 
 // In the frame's coordinates.
@@ -260,7 +264,7 @@ void find_radii(const Solid& solid, const Lattice& lattice, std::span<const std:
     places.push_back(scaled_from_frame(lattice, vertex.position));
   std::vector<double> balls = curve.distance;
   for (double& ball : balls) ball /= solid.scale();
-  const double volume = solid.volume / (solid.scale() * solid.scale() * solid.scale());
+  const double volume = solid.scaled(solid.volume);
   const std::vector<double> tube = slice_radii({places, lines, curve.slice, balls, volume});
   const std::vector<double> area = areas_of(LimbSections(solid.mesh), places, balls, lines);
   curve.radius = limb_radii({lines, curve.share, curve.slice, tube, area, in_joint, volume});
@@ -315,9 +319,9 @@ Drawn drawn(const LimbSurface& surface, const Lattice& lattice, const RidgeBasis
   const std::vector<double> balls = balls_of(lattice, basis, ridge);
   LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
   SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
-  add_flat_limbs(ridge, balls, options.least_reach, lines, ends);
+  if (add_flat_limbs(ridge, balls, options.least_reach, lines, ends))
+    lines = sheet_lines(ridge, ends.is_end, options.context);
   std::vector<Vec3> places = positions(ridge);
-  lines = sheet_lines(ridge, ends.is_end, options.context);
   const std::vector<double> thickness = thickness_along(surface.sections, lines, places, balls);
   lines = pruned_lines(lines, ridge, thickness, kLeastThickness * lattice.spacing, options.context);
   lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);

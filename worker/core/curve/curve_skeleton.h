@@ -13,8 +13,8 @@
 namespace affskel::core {
 
 struct CurveOptions {
-  /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach, and HangingPatch::reach of flat
-  /// ones.  Below RidgeConstants::limb_reach no more tips come.
+  /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach; flat ones, by how far they
+  /// lead out of what there is without them over HangingPatch::width.  Below RidgeConstants::limb_reach no more tips come.
   double least_reach = 0.9;
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };

@@ -25,18 +25,21 @@ class Joints {
         ball_(ball),
         polylines_(polylines(lines.vertices.size(), lines.segments)),
         joint_(lines.vertices.size()),
+        members_(lines.vertices.size()),
+        ends_(line_ends(lines.vertices.size(), polylines_)),
         gone_(polylines_.size(), 0) {
-    for (std::uint32_t v = 0; v < joint_.size(); ++v) joint_[v] = v;
-    const std::vector<std::uint32_t> degree = ends_of(lines.vertices.size(), polylines_);
+    for (std::uint32_t v = 0; v < joint_.size(); ++v) members_[joint_[v] = v] = {v};
     for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
       const std::uint32_t a = polylines_[n].front(), b = polylines_[n].back();
-      if (a != b && degree[a] > 2 && degree[b] > 2) links_.push_back({length_of(polylines_[n]), n});
+      if (a != b && ends_[a].size() > 2 && ends_[b].size() > 2)
+        links_.push_back({length_of(polylines_[n]), n});
     }
     std::sort(links_.begin(), links_.end());
   }
 
-  SheetLines run() {
-    for (const auto& [length, n] : links_) join(n);
+  SheetLines run(ExecutionContext* context) {
+    StopCheck stop(context);
+    for (const auto& [length, n] : links_) stop.did(10 * join(n));
     return drawn();
   }
 
@@ -53,9 +56,9 @@ class Joints {
 
   // Of all that have become a each with all that have become b: by one between them a trunk's two ends would be one.
   bool are_together(std::uint32_t a, std::uint32_t b) const {
-    for (std::uint32_t v = 0; v < joint_.size(); ++v)
-      for (std::uint32_t w = 0; joint_[v] == a && w < joint_.size(); ++w)
-        if (joint_[w] == b && distance(v, w) >= kTogether * std::min(ball(a), ball(b))) return false;
+    for (const std::uint32_t v : members_[a])
+      for (const std::uint32_t w : members_[b])
+        if (distance(v, w) >= kTogether * std::min(ball(a), ball(b))) return false;
     return true;
   }
 
@@ -67,24 +70,38 @@ class Joints {
 
   // Whether lines would lie on each other, had b become a.
   bool would_meet(std::uint32_t which, std::uint32_t a, std::uint32_t b) const {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> straight;
-    for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
-      if (n == which || gone_[n]) continue;
-      const auto end = [&](std::uint32_t v) { return joint_[v] == b ? a : joint_[v]; };
-      const std::pair<std::uint32_t, std::uint32_t> ends =
-          std::minmax({end(polylines_[n].front()), end(polylines_[n].back())});
-      if (ends.first == ends.second && polylines_[n].size() < kLeastLoop) return true;
-      if (polylines_[n].size() == 2 && !straight.insert(ends).second) return true;
+    std::set<std::uint32_t> straight;  // where such lines from a lead
+    for (const std::uint32_t joint : {a, b}) {
+      for (const LineEnd& end : ends_[joint]) {
+        if (end.line == which || gone_[end.line]) continue;
+        const auto& line = polylines_[end.line];
+        const std::uint32_t other = joint_[point_from(!end.back, line, 0)];
+        if ((other == a || other == b) && line.size() < kLeastLoop) return true;
+        if (line.size() == 2 && !straight.insert(other).second) return true;
+      }
     }
     return false;
   }
 
-  void join(std::uint32_t n) {
+  // @return how much it looked at.
+  std::size_t join(std::uint32_t n) {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
     if (ball(b) > ball(a)) std::swap(a, b);
-    if (a == b || !are_together(a, b) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b)) return;
+    const std::size_t looked_at =
+        members_[a].size() * members_[b].size() + polylines_[n].size() + ends_[a].size();
+    if (a == b || !are_together(a, b) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
+      return looked_at;
     gone_[n] = 1;
-    std::replace(joint_.begin(), joint_.end(), b, a);
+    for (const std::uint32_t v : members_[b]) joint_[v] = a;
+    move_all(members_[b], members_[a]);
+    move_all(ends_[b], ends_[a]);
+    return looked_at;
+  }
+
+  template <class Item>
+  static void move_all(std::vector<Item>& from, std::vector<Item>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+    from = {};
   }
 
   SheetLines drawn() const {
@@ -107,15 +124,18 @@ class Joints {
   std::span<const Vec3> places_;
   std::span<const double> ball_;
   const std::vector<std::vector<std::uint32_t>> polylines_;  // by numbers in lines_.vertices
-  std::vector<std::uint32_t> joint_;  // per vertex: itself, or the joint that stands for it
-  std::vector<char> gone_;            // per polyline
+  std::vector<std::uint32_t> joint_;                 // per vertex: itself, or the joint that stands for it
+  std::vector<std::vector<std::uint32_t>> members_;  // per joint: what it stands for
+  std::vector<std::vector<LineEnd>> ends_;           // per joint: of lines, at these
+  std::vector<char> gone_;                           // per polyline
   std::vector<std::pair<double, std::uint32_t>> links_;
 };
 
 }  // namespace
 
-SheetLines joined_links(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball) {
-  return Joints(lines, places, ball).run();
+SheetLines joined_links(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball,
+                        ExecutionContext* context) {
+  return Joints(lines, places, ball).run(context);
 }
 
 }  // namespace affskel::core

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/base/execution_context.h"
 #include "core/base/vec3.h"
 #include "core/curve/sheet_lines.h"
 
@@ -12,6 +13,8 @@ namespace affskel::core {
 /// they, and all that they have been made of, are at most kTogether of the smaller one's balls apart, and the link itself
 /// lies in their balls, the shortest first; the joint of the larger ball stays.  What is left has the same pieces and tunnels.
 /// @param places, ball per vertex of the sheet that the lines are of.
-SheetLines joined_links(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball);
+/// @throws CoreError kCancelled when the context asks to stop.
+SheetLines joined_links(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball,
+                        ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

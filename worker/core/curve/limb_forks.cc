@@ -41,10 +41,7 @@ double ahead(const Vec3& way, const Vec3& direction) {
 std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
                                               std::span<const std::vector<std::uint32_t>> lines,
                                               const LimbSections& sections, double step) {
-  std::vector<std::vector<LineEnd>> ends(places.size());
-  for (std::uint32_t n = 0; n < lines.size(); ++n)
-    for (const bool back : {false, true})
-      ends[back ? lines[n].back() : lines[n].front()].push_back({n, back});
+  const std::vector<std::vector<LineEnd>> ends = line_ends(places.size(), lines);
   std::vector<std::vector<LimbFork>> forks(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
     if (ends[v].size() < 3) continue;

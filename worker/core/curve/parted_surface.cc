@@ -3,15 +3,18 @@
 // marked; then every triangle is divided by its marks alone, so that the pieces fit together.
 #include "core/curve/parted_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "core/base/unit.h"
 #include "core/collapse/dual_complex.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/mesh/edges.h"
 #include "core/ridge/row_band.h"
 
 namespace affskel::core {
@@ -19,35 +22,24 @@ namespace {
 
 constexpr std::int32_t kFarthest = 4;  // steps
 
-class PointsOfLattice {
- public:
-  explicit PointsOfLattice(const Lattice& lattice) : band_(lattice, 0), rank_(ranks_in(band_, lattice)) {}
+std::uint32_t nearest_within(const NearPoints& points, const Vec3& at, std::int32_t reach) {
+  double least = double(reach) * reach;
+  std::uint32_t found = kNone;
+  points.any_near(at, reach, [&](std::uint32_t rank, double square) {
+    if (square > least || (square == least && found != kNone)) return false;
+    least = square;
+    found = rank;
+    return false;
+  });
+  return found;
+}
 
-  // @param at real indices.
-  std::uint32_t nearest(const Vec3& at) const {
-    for (std::int32_t reach = 1; reach <= kFarthest; reach *= 2)
-      if (const std::uint32_t found = nearest_within(at, reach); found != kNone) return found;
-    return kNone;
-  }
-
- private:
-  std::uint32_t nearest_within(const Vec3& at, std::int32_t reach) const {
-    double least = double(reach) * reach;
-    std::uint32_t found = kNone;
-    band_.any_near(at, reach, [&](std::size_t place, double square) {
-      const std::uint32_t rank = rank_[place];
-      if (rank == kNone || square > least) return false;
-      if (square == least && found != kNone) return false;
-      least = square;
-      found = rank;
-      return false;
-    });
-    return found;
-  }
-
-  RowBand band_;
-  std::vector<std::uint32_t> rank_;  // per place of the band
-};
+// @param at real indices.
+std::uint32_t nearest_point(const NearPoints& points, const Vec3& at) {
+  for (std::int32_t reach = 1; reach <= kFarthest; reach *= 2)
+    if (const std::uint32_t found = nearest_within(points, at, reach); found != kNone) return found;
+  return kNone;
+}
 
 class CutTriangles {
  public:
@@ -80,7 +72,7 @@ class CutTriangles {
     stop_.did(100);
     const Vec3 along = place(t[1]) - place(t[0]), across = place(t[2]) - place(t[0]);
     const Vec3 outward = unit(cross(along, across));
-    return points_.nearest(indices_(place(t[0]) + u * along + v * across - 0.5 * spacing_ * outward));
+    return nearest_point(points_, indices_(place(t[0]) + u * along + v * across - 0.5 * spacing_ * outward));
   }
 
   // The triangle, its longest edge first: of equal ones that of the lesser corners, so that neighbours agree.
@@ -113,28 +105,37 @@ class CutTriangles {
     return false;
   }
 
+  // In passes over the triangles, of those that have a cut since they were last looked at.
   // @return whether there is any edge to cut.
   bool mark() {
     middle_.clear();
     is_cut_.assign(mesh_.points.size(), 0);
-    for (std::size_t t = 0; t < mixed_.size(); ++t)
-      if (mixed_[t] != 0) cut_longest(mesh_.triangles[t]);
-    if (middle_.empty()) return false;
-    for (std::size_t before = 0; before != middle_.size();) {
-      before = middle_.size();
-      for (const Triangle& t : mesh_.triangles)
-        if (has_cut(t)) cut_longest(t);
+    if (std::find(mixed_.begin(), mixed_.end(), 1) == mixed_.end()) return false;
+    const Edges edges(mesh_.points.size(), mesh_.triangles);
+    std::set<std::pair<std::size_t, std::uint32_t>> left;  // passes and triangles
+    const auto cut = [&](std::size_t pass, std::uint32_t number) {
+      const Triangle t = by_longest(mesh_.triangles[number]);
+      if (!cut_longest(t)) return;
+      for (const EdgeSide& side : edges.between(t[0], t[1]))
+        left.emplace(pass > 0 && side.triangle() > number ? pass : pass + 1, side.triangle());
+    };
+    for (std::uint32_t t = 0; t < mixed_.size(); ++t)
+      if (mixed_[t] != 0) cut(0, t);
+    for (; !left.empty(); left.erase(left.begin())) {
+      stop_.did(10);
+      cut(left.begin()->first, left.begin()->second);
     }
     return true;
   }
 
-  void cut_longest(const Triangle& triangle) {
-    const Triangle t = by_longest(triangle);
+  // @param t its longest edge first.
+  bool cut_longest(const Triangle& t) {
     const auto [found, is_new] =
         middle_.try_emplace(ascending(t[0], t[1]), static_cast<std::uint32_t>(mesh_.points.size()));
-    if (!is_new) return;
+    if (!is_new) return false;
     mesh_.points.push_back(0.5 * (place(found->first[0]) + place(found->first[1])));
     is_cut_[t[0]] = is_cut_[t[1]] = 1;
+    return true;
   }
 
   bool has_cut(const Triangle& t) const {
@@ -185,7 +186,7 @@ class CutTriangles {
     mixed_.push_back(may_mix && mixed(t) ? 1 : 0);
   }
 
-  const PointsOfLattice points_;
+  const NearPoints points_;
   const LatticeIndices indices_;
   const double spacing_;  // scaled units
   const std::span<const std::uint32_t> part_;

@@ -7,15 +7,24 @@
 #include <functional>
 #include <numeric>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/mesh/box.h"
+#include "core/spatial/halved_nodes.h"
 
 namespace affskel::core {
 namespace {
 
 using Line = std::vector<std::uint32_t>;
+
+// Of some vertices.
+struct Balls {
+  Box middles;
+  double greatest = 0;
+};
 
 class Pruning {
  public:
@@ -24,15 +33,26 @@ class Pruning {
         sheet_(sheet),
         ball_(ball),
         least_(least),
-        segments_(lines.segments),
         beside_(lines.vertices.size()),
+        piece_(lines.vertices.size()),
+        is_left_(lines.vertices.size(), 1),
         is_middle_(lines.vertices.size(), 0) {
-    for (Segment& s : segments_) {
-      s = ascending(s[0], s[1]);
+    for (const Segment& s : lines.segments) {
       beside_[s[0]].push_back(s[1]);
       beside_[s[1]].push_back(s[0]);
     }
     mark_middles();
+    std::vector<std::uint32_t> all(piece_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto balls_of = [&](std::span<const std::uint32_t> some) {
+      Balls balls;
+      for (const std::uint32_t v : some) {
+        balls.middles.include(place(v));
+        balls.greatest = std::max(balls.greatest, this->ball(v));
+      }
+      return balls;
+    };
+    balls_ = HalvedTree<Balls>(std::move(all), 1, balls_of, [this](std::uint32_t v) { return place(v); });
   }
 
   // The shortest first. What goes only leaves others farther outside.
@@ -40,6 +60,7 @@ class Pruning {
     using Spur = std::pair<double, std::uint32_t>;
     std::priority_queue<Spur, std::vector<Spur>, std::greater<>> spurs;
     const auto look_at = [&](std::uint32_t end, double known) {
+      throw_if_stopped(context);
       const Line line = line_from(end);
       const bool leads_through_middle =
           std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return is_middle_[v] != 0; });
@@ -54,12 +75,15 @@ class Pruning {
     for (std::uint32_t v = 0; v < beside_.size(); ++v)
       if (beside_[v].size() == 1) look_at(v, -HUGE_VAL);
     while (!spurs.empty()) {
-      throw_if_stopped(context);
       const auto [beyond, end] = spurs.top();
       spurs.pop();
       look_at(end, beyond);
     }
-    return left_of(lines_, segments_);
+    std::vector<Segment> left;
+    for (const auto& [a, b] : lines_.segments)
+      if (std::find(beside_[a].begin(), beside_[a].end(), b) != beside_[a].end())
+        left.push_back(ascending(a, b));
+    return left_of(lines_, std::move(left));
   }
 
  private:
@@ -69,7 +93,7 @@ class Pruning {
   // In each piece the vertex of the greatest E.
   void mark_middles() {
     DisjointSets pieces(beside_.size());
-    for (const Segment& s : segments_) pieces.unite(s[0], s[1]);
+    for (const Segment& s : lines_.segments) pieces.unite(s[0], s[1]);
     std::vector<std::uint32_t> middle(beside_.size());  // of what is known of a piece
     std::iota(middle.begin(), middle.end(), 0U);
     const auto erosion = [&](std::uint32_t v) { return sheet_.vertices[lines_.vertices[v]].erosion; };
@@ -78,17 +102,22 @@ class Pruning {
       if (erosion(v) > erosion(known)) known = v;
     }
     for (std::uint32_t v = 0; v < beside_.size(); ++v)
-      if (pieces.find(v) == v) is_middle_[middle[v]] = 1;
+      if ((piece_[v] = pieces.find(v)) == v) is_middle_[middle[v]] = 1;
   }
 
   void erase(std::uint32_t a, std::uint32_t b) {
-    std::erase(segments_, ascending(a, b));
     std::erase(beside_[a], b);
     std::erase(beside_[b], a);
   }
 
   void erase(const Line& line) {
     for (std::size_t n = 1; n < line.size(); ++n) erase(line[n - 1], line[n]);
+    leave(line, 0);
+  }
+
+  // But for its last vertex, which is of what it hangs on.
+  void leave(const Line& line, char is_left) {
+    for (std::size_t n = 1; n < line.size(); ++n) is_left_[line[n - 1]] = is_left;
   }
 
   // Of what leads out.
@@ -104,19 +133,24 @@ class Pruning {
   };
 
   // How far the end of a line is outside the balls about what it hangs on.
-  Beyond beyond_rest(const Line& line) const {
-    std::vector<char> seen(beside_.size(), 0);
-    for (const std::uint32_t v : line) seen[v] = 1;
+  Beyond beyond_rest(const Line& line) {
+    constexpr double kRounding = 1 + 1e-9;
+    const Vec3 end = place(line.front());
     Beyond least;
-    Line rest{line.back()};
-    for (std::size_t n = 0; n < rest.size(); ++n) {
-      const std::uint32_t u = rest[n];
-      const double way = norm(place(line.front()) - place(u)) - ball(u);
+    const auto look_at = [&](std::uint32_t u) {
+      if (!is_left_[u] || piece_[u] != piece_[line.back()]) return;
+      const double way = norm(end - place(u)) - ball(u);
       least.way = std::min(least.way, way);
       if (ball(u) > 0) least.radii = std::min(least.radii, way / ball(u));
-      for (const std::uint32_t w : beside_[u])
-        if (!std::exchange(seen[w], 1)) rest.push_back(w);
-    }
+    };
+    const auto may_have_less = [&](const Balls& balls) {
+      const double way = std::sqrt(balls.middles.squared_distance(end));
+      return way < kRounding * std::max(least.way + balls.greatest, (1 + least.radii) * balls.greatest);
+    };
+    leave(line, 0);
+    look_at(line.back());  // it is near
+    balls_.visit_above(-1, may_have_less, look_at);
+    leave(line, 1);
     return least;
   }
 
@@ -130,10 +164,12 @@ class Pruning {
   const SheetLines& lines_;
   const SheetMesh& sheet_;
   std::span<const double> ball_;
-  double least_;                   // thickness
-  std::vector<Segment> segments_;  // that are left
-  std::vector<Line> beside_;       // per vertex, by them
-  std::vector<char> is_middle_;    // per vertex
+  double least_;                      // thickness
+  std::vector<Line> beside_;          // per vertex, by the segments that are left
+  std::vector<std::uint32_t> piece_;  // per vertex
+  std::vector<char> is_left_;         // per vertex
+  std::vector<char> is_middle_;       // per vertex
+  HalvedTree<Balls> balls_;           // of all vertices
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -21,7 +22,8 @@ struct Beside {
               at = 0;  // the last vertex of the one that is beside the other, and which of that it is beside
   double length = 0;
 
-  bool is_before(const Beside& that) const {
+  // The longest first.
+  bool operator<(const Beside& that) const {
     if (length != that.length) return length > that.length;
     const auto order = [](const Beside& one) {
       return std::tie(one.sliding, one.other, one.sliding_back, one.other_back);
@@ -49,9 +51,9 @@ class Zip {
     // Each slide leaves less that runs side by side; the bound is for what nobody has thought of.
     for (std::size_t n = 4 * parts_.size(); n > 0; --n) {
       throw_if_stopped(context);
-      const Beside found = longest();
-      if (found.length == 0) break;
-      slide(found);
+      find_longest();
+      if (longest_.empty()) break;
+      slide(*longest_.begin());
     }
     return left_of(lines_, segments());
   }
@@ -100,14 +102,14 @@ class Zip {
 
   static Line turned(const Line& line, bool back) { return back ? Line(line.rbegin(), line.rend()) : line; }
 
-  Beside longest() {
+  void find_longest() {
     for (const std::uint32_t joint : stale_) {
+      longest_.erase(longest_at_[joint]);
       longest_at_[joint] = longest_at(joint);
+      if (longest_at_[joint].length > 0) longest_.insert(longest_at_[joint]);
       is_stale_[joint] = 0;
     }
     stale_.clear();
-    return *std::min_element(longest_at_.begin(), longest_at_.end(),
-                             [](const Beside& a, const Beside& b) { return a.is_before(b); });
   }
 
   Beside longest_at(std::uint32_t joint) const {
@@ -124,7 +126,7 @@ class Zip {
         found.other = b.line;
         found.sliding_back = a.back;
         found.other_back = b.back;
-        if (best.length == 0 || found.is_before(best)) best = found;
+        if (best.length == 0 || found < best) best = found;
       }
     }
     return best;
@@ -184,7 +186,8 @@ class Zip {
   std::vector<Vec3>& places_;
   std::vector<Line> parts_;               // by numbers in lines_.vertices; what was taken is empty
   std::vector<std::vector<LineEnd>> at_;  // per vertex
-  std::vector<Beside> longest_at_;        // per vertex, of what ends there
+  std::vector<Beside> longest_at_;        // per vertex, of what ends there; of length 0 where there is none
+  std::set<Beside> longest_;              // of these
   std::vector<char> is_stale_;
   std::vector<std::uint32_t> stale_;  // whose longest has to be found again
 };

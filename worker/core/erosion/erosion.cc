@@ -17,9 +17,8 @@ class Erosion::Engine {
       : directions_(directions),
         trees_(solid, options.threads),
         field_(lattice.points, options.track_changes),
-        sweeper_(
-            lattice, field_,
-            {options.prune, 2 * trees_.volume_tolerance(), std::ldexp(solid.volume, -3 * solid.exponent)}) {
+        sweeper_(lattice, field_,
+                 {options.prune, 2 * trees_.volume_tolerance(), solid.scaled(solid.volume)}) {
     const JoinTreeOptions tree_options{solid.self_intersecting};
     builders_.resize(std::max(1U, options.threads));
     parallel_for(options.threads, builders_.size(), [&](std::size_t i) {

@@ -21,7 +21,7 @@ std::size_t way_down(const Vec3& d) {
 PlaceChords::PlaceChords(const Solid& solid, std::span<const Vec3> places, unsigned threads)
     : places_(places.begin(), places.end()),
       below_(places.size(), kOutside),
-      solid_volume_(std::ldexp(solid.volume, -3 * solid.exponent)) {
+      solid_volume_(solid.scaled(solid.volume)) {
   const AxisRays rays(solid.mesh, threads);
   parallel_ranges(threads, places_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

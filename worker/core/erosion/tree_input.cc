@@ -71,7 +71,7 @@ TreeInput::TreeInput(const Solid& s, unsigned threads)
     const Vec3 twice = twice_area(mesh, c);
     area_vector.push_back(0.5 * twice);
     surface_area += 0.5 * norm(twice);
-    for (std::uint32_t v : c) vertex_solid[v] = s.shells[s.triangle_shell[original_triangle[t]]].solid;
+    for (std::uint32_t v : c) vertex_solid[v] = s.solid_of(original_triangle[t]);
   }
   parallel_ranges(threads, mesh.points.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -84,7 +84,7 @@ TreeInput::TreeInput(const Solid& s, unsigned threads)
     find_nested(threads);
   }
   for (double v : s.solid_volume) {
-    solid_volume.push_back(std::ldexp(v, -3 * s.exponent));
+    solid_volume.push_back(s.scaled(v));
     volume += solid_volume.back();
   }
 }

@@ -80,7 +80,7 @@ PieceInput::PieceInput(const Solid& solid, unsigned threads) {
     if (bounded[shell.solid] != 0 && !rays) rays.emplace(mesh, threads);
     bounded[shell.solid] = 1;
   }
-  for (const double v : solid.solid_volume) volume += std::ldexp(v, -3 * solid.exponent);
+  for (const double v : solid.solid_volume) volume += solid.scaled(v);
 }
 
 // The pairs that pass through each other, too.
@@ -96,8 +96,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> PieceInput::number_anew(con
   mesh = numbered_by_first_use(in_order);
   plant_trees();
   for (std::uint32_t t = 0; t < triangle_order.size(); ++t) {
-    shells[shell_of[mesh.triangles[t][0]]].solid =
-        solid.shells[solid.triangle_shell[triangle_order[t]]].solid;
+    shells[shell_of[mesh.triangles[t][0]]].solid = solid.solid_of(triangle_order[t]);
   }
   join_solids(solid);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
@@ -125,10 +124,7 @@ void PieceInput::plant_trees() {
 
 // Solids that pass through each other are one from here on.
 void PieceInput::join_solids(const Solid& solid) {
-  DisjointSets solids(solid.solid_volume.size());
-  for (const auto& [i, j] : solid.crossings) {
-    solids.unite(solid.shells[solid.triangle_shell[i]].solid, solid.shells[solid.triangle_shell[j]].solid);
-  }
+  DisjointSets solids = joined_solids(solid);
   for (Shell& shell : shells) shell.solid = solids.find(shell.solid);
 }
 

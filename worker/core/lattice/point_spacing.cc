@@ -90,7 +90,7 @@ class SpacingSearch {
 }  // namespace
 
 bool is_foil(const Solid& solid, double spacing) {
-  const double scaled_volume = std::ldexp(solid.volume, -3 * solid.exponent);
+  const double scaled_volume = solid.scaled(solid.volume);
   return spacing > kFoilRatio * solid.scale() * 2 * scaled_volume / surface_area(solid.mesh);
 }
 

@@ -1,17 +1,11 @@
 #include "core/lattice/solid_parts.h"
 
-#include "core/base/disjoint_sets.h"
 #include "core/lattice/lattice_coordinates.h"
 
 namespace affskel::core {
 
 SolidParts::SolidParts(const Solid& solid, const Lattice& lattice) : solid_(solid), lattice_(lattice) {
-  const auto solid_of = [&](std::uint32_t triangle) {
-    return solid.shells[solid.triangle_shell[triangle]].solid;
-  };
-  DisjointSets sets(solid.solid_volume.size());
-  for (const auto& [a, b] : solid.crossings) sets.unite(solid_of(a), solid_of(b));
-  part_of_solid_ = sets.numbers(count_);
+  part_of_solid_ = joined_solids(solid).numbers(count_);
   points_.assign(count_, 0);
   for (const LatticeRun& run : lattice.axis[2].runs) points_[of_triangle(run.low)] += run.length;
 }

@@ -31,7 +31,7 @@ class SolidParts {
 
  private:
   std::uint32_t of_triangle(std::uint32_t triangle) const {
-    return part_of_solid_[solid_.shells[solid_.triangle_shell[triangle]].solid];
+    return part_of_solid_[solid_.solid_of(triangle)];
   }
 
   const Solid& solid_;

@@ -67,6 +67,14 @@ std::vector<std::uint32_t> ends_of(std::size_t points, std::span<const std::vect
   return ends;
 }
 
+std::vector<std::vector<LineEnd>> line_ends(std::size_t points,
+                                            std::span<const std::vector<std::uint32_t>> lines) {
+  std::vector<std::vector<LineEnd>> ends(points);
+  for (std::uint32_t n = 0; n < lines.size(); ++n)
+    for (const bool back : {false, true}) ends[point_from(back, lines[n], 0)].push_back({n, back});
+  return ends;
+}
+
 double length_of(std::span<const Vec3> places, std::span<const std::uint32_t> line) {
   double length = 0;
   for (std::size_t n = 1; n < line.size(); ++n) length += norm(places[line[n]] - places[line[n - 1]]);

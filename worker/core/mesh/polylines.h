@@ -32,6 +32,10 @@ inline std::uint32_t point_from(bool back, std::span<const std::uint32_t> line, 
 /// Per point: how many ends of lines it is.
 std::vector<std::uint32_t> ends_of(std::size_t points, std::span<const std::vector<std::uint32_t>> lines);
 
+/// Per point: those ends, by line.
+std::vector<std::vector<LineEnd>> line_ends(std::size_t points,
+                                            std::span<const std::vector<std::uint32_t>> lines);
+
 /// Of a line, from point to point.
 double length_of(std::span<const Vec3> places, std::span<const std::uint32_t> line);
 

@@ -12,6 +12,7 @@
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/solid/betti_numbers.h"
 #include "core/solid/surface_loops.h"
 
@@ -189,8 +190,7 @@ class OpenLines {
 
 FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
                            std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
-                           const FillOptions& options) {
-  ExecutionContext* const context = options.context;
+                           ExecutionContext* context) {
   if (solid.self_intersecting) return {};
   const CellSet graph = collapsed(complex, left, {}, context);
   bool encloses = false;
@@ -213,17 +213,16 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
     left.erase(edge);
     filled.edges.push_back(edge);
     complex.for_each_face(edge, [&](Cell vertex) { ends.push_back(vertex); });
-    ++filled.number;
     for (std::size_t other = n + 1; other < cycles.size(); ++other)
       if (cycles[other].has(edge)) cycles[other].add(cycles[n]);
   }
-  if (filled.number == 0) return filled;
+  if (filled.edges.empty()) return filled;
   const CellSet rest = collapsed(complex, left, anchors, context);
   const OpenLines lines(lattice, complex, left, rest, radius);
   std::vector<Anchor> stay(anchors.begin(), anchors.end());
   for (const Cell end : ends) {
     const LimbTip tip = lines.tip_at(end);
-    if (tip.reach < options.limb_reach) continue;
+    if (tip.reach < RidgeConstants::limb_reach) continue;
     stay.push_back({end});
     filled.limbs.push_back(tip);
   }

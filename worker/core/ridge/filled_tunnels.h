@@ -9,19 +9,12 @@
 #include "core/collapse/limb_tips.h"
 #include "core/collapse/shortest_ways.h"
 #include "core/lattice/lattice.h"
-#include "core/ridge/ridge_constants.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
 
-struct FillOptions {
-  double limb_reach = RidgeConstants{}.limb_reach;
-  ExecutionContext* context = nullptr;
-};
-
 struct FilledTunnels {
-  std::uint32_t number = 0;
-  std::vector<DualComplex::Cell> edges;  ///< that are taken out
+  std::vector<DualComplex::Cell> edges;  ///< that are taken out, one of each
   /// What hung loose and stays.  limb_tips() sees none of them: while the solid is thinned they are a loop.
   std::vector<LimbTip> limbs;
 };
@@ -41,7 +34,7 @@ struct FilledTunnels {
 /// @throws CoreError kCancelled when the context asks to stop.
 FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const DualComplex& complex,
                            std::span<const Anchor> anchors, std::span<const float> radius, CellSet& left,
-                           const FillOptions& options = {});
+                           ExecutionContext* context = nullptr);
 
 inline constexpr std::size_t kMostTunnels = 64;  ///< with more the lattice resolves no solid at all
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/execution_context.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
 
@@ -13,12 +14,14 @@ namespace affskel::core {
 /// is all that lies beyond the point.
 /// @param field of this lattice.
 /// @return per sample point.
-std::vector<float> local_depth(const Lattice& lattice, const FrameField& field);
+/// @throws CoreError kCancelled, as surface_distance() does, when the context asks to stop.
+std::vector<float> local_depth(const Lattice& lattice, const FrameField& field,
+                               ExecutionContext* context = nullptr);
 
 /// How far a sample point lies from the surface, in spacings: 1/2 where a lattice edge from it leaves the
 /// solid, else that of the nearest such point and the way to it, measured alike.
 /// @return per sample point.
-std::vector<float> surface_distance(const Lattice& lattice);
+std::vector<float> surface_distance(const Lattice& lattice, ExecutionContext* context = nullptr);
 
 /// Whether no place next to a sample point is nearer to the surface than `least` spacings, as far as its
 /// surface_distance() tells: a place is nearer than the point by a spacing at most, the point than half a spacing, and

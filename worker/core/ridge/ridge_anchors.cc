@@ -20,12 +20,10 @@ using Cell = DualComplex::Cell;
 
 class Choice {
  public:
-  Choice(const RidgeEvidence& evidence, const RidgeBounds& bounds, const RidgeConstants& constants,
-         ExecutionContext* context)
+  Choice(const RidgeEvidence& evidence, const RidgeBounds& bounds, ExecutionContext* context)
       : evidence_(evidence),
         complex_(evidence.complex),
         bounds_(bounds),
-        constants_(constants),
         context_(context),
         taken_(evidence.complex),
         components_(evidence.complex.cubes()) {}
@@ -66,7 +64,7 @@ class Choice {
   void take_surface() {
     const std::vector<double> radii = radii_of_squares();
     const auto [taken, piece] = surface_squares(
-        {evidence_.cells, evidence_.vertices, evidence_.strength, radii}, bounds_.low, constants_.gap);
+        {evidence_.cells, evidence_.vertices, evidence_.strength, radii}, bounds_.low, RidgeConstants::gap);
     const auto& rings = evidence_.cells.ring;
     std::vector<char> founded(rings.size(), 0);
     std::vector<double> area(rings.size(), 0);  // of pieces; a square's four corners have a quarter each
@@ -79,7 +77,7 @@ class Choice {
       }
     }
     for (std::uint32_t e = 0; e < rings.size(); ++e) {
-      if (!taken[e] || !founded[piece[e]] || area[piece[e]] < constants_.min_area) continue;
+      if (!taken[e] || !founded[piece[e]] || area[piece[e]] < RidgeConstants::min_area) continue;
       double weight = 0;
       for (const std::uint32_t v : rings[e]) weight += evidence_.vertices[v].strength;
       take({complex_.square(evidence_.edges[e].point, evidence_.edges[e].axis), static_cast<float>(weight)});
@@ -123,7 +121,7 @@ class Choice {
 
   // Whether a vertex tells of a ridge by itself.
   bool founds(const SheetVertex& vertex) const {
-    return vertex.strength >= bounds_.high && vertex.roundness <= constants_.max_roundness;
+    return vertex.strength >= bounds_.high && vertex.roundness <= RidgeConstants::max_roundness;
   }
 
   void look_at(Stretch stretch) {
@@ -136,7 +134,7 @@ class Choice {
                           (evidence_.field.spacing * radius_at(here));
     }
     if (!founded) return;
-    if (stretch.whole || stretch.length >= constants_.min_length)
+    if (stretch.whole || stretch.length >= RidgeConstants::min_length)
       take_stretch(stretch);
     else
       short_ones_.push_back(stretch);
@@ -187,7 +185,8 @@ class Choice {
       float way = kNoWay;
       for (const auto& member : complex_.star(cell)) way = std::min(way, ways[member.cube]);
       if (static_cast<double>(way) >
-          constants_.end_spacings + constants_.end_radii * radius_about(complex_, evidence_.radius, cell))
+          RidgeConstants::end_spacings +
+              RidgeConstants::end_radii * radius_about(complex_, evidence_.radius, cell))
         result_.core.push_back({cell, 0});
     }
   }
@@ -205,7 +204,7 @@ class Choice {
   double allowed_from(const LimbTip& tip) const {
     const double radius = radius_about(complex_, evidence_.radius, tip.vertex);
     const double sides = radius < 0.5 * tip.radius ? std::numbers::sqrt3 : 1;
-    return constants_.end_spacings + sides * (constants_.end_radii * tip.radius - radius);
+    return RidgeConstants::end_spacings + sides * (RidgeConstants::end_radii * tip.radius - radius);
   }
 
   // Every component has its middle in its skeleton: a jar is more than its neck, an apple more than its stalk.
@@ -231,8 +230,8 @@ class Choice {
 
   // Unless what is anchored comes near.
   void take_middle(Cell middle, const std::vector<char>& anchored) {
-    const double allowed =
-        constants_.end_spacings + constants_.middle_radii * radius_about(complex_, evidence_.radius, middle);
+    const double allowed = RidgeConstants::end_spacings +
+                           RidgeConstants::middle_radii * radius_about(complex_, evidence_.radius, middle);
     std::set<std::uint32_t> about;
     const auto reached = [&](std::uint32_t cube, float) {
       about.insert(cube);
@@ -315,7 +314,6 @@ class Choice {
   const RidgeEvidence& evidence_;
   const DualComplex& complex_;
   const RidgeBounds& bounds_;
-  const RidgeConstants& constants_;
   ExecutionContext* context_;
   CellSet taken_;            // closed
   DisjointSets components_;  // of cubes
@@ -326,12 +324,12 @@ class Choice {
 }  // namespace
 
 RidgeAnchors ridge_anchors(const RidgeEvidence& evidence, const RidgeBounds& bounds,
-                           const RidgeConstants& constants, ExecutionContext* context) {
+                           ExecutionContext* context) {
   require_within(bounds.low, 1e-6, 1000,
                  "the lower bound of a ridge's strength must lie between 1e-6 and 1000");
   require_within(bounds.high, bounds.low, 1e6,
                  "the higher bound of a ridge's strength must be at least the lower one");
-  return Choice(evidence, bounds, constants, context).run();
+  return Choice(evidence, bounds, context).run();
 }
 
 }  // namespace affskel::core

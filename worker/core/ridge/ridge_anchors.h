@@ -71,6 +71,6 @@ struct RidgeAnchors {
 /// The lower the bounds, the more.  A function of its arguments alone.
 /// @throws CoreError kBadInput when a bound is out of range; kCancelled when the context asks to stop.
 RidgeAnchors ridge_anchors(const RidgeEvidence& evidence, const RidgeBounds& bounds,
-                           const RidgeConstants& constants = {}, ExecutionContext* context = nullptr);
+                           ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -150,28 +150,25 @@ bool take_limbs(const std::vector<LimbTip>& limbs, RidgeAnchors& chosen) {
 
 // What is left of the complex has tunnels and voids that the solid lacks: too coarse a lattice, or noise.
 void fill(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
-          std::span<const Anchor> anchors, const RidgeConstants& constants, ExecutionContext* context,
-          CellSet& left, RidgeSheet& sheet) {
+          std::span<const Anchor> anchors, ExecutionContext* context, CellSet& left, RidgeSheet& sheet) {
   if (basis.topology.holes + basis.topology.cavities == 0) return;
   if (const auto bored = noisy_solid(solid, lattice, basis)) {
     sheet.lattice = fill_bored(*bored, basis.topology, anchors, left, context);
   } else {
-    sheet.filled = fill_tunnels(solid, lattice, basis.complex, anchors, basis.radius, left,
-                                {.limb_reach = constants.limb_reach, .context = context});
-    sheet.lattice.holes -= sheet.filled.number;
+    sheet.filled = fill_tunnels(solid, lattice, basis.complex, anchors, basis.radius, left, context);
+    sheet.lattice.holes -= static_cast<std::uint64_t>(sheet.filled.edges.size());
   }
 }
 
 class SheetMaker {
  public:
   SheetMaker(const Solid& solid, const Lattice& lattice, const FrameField& field, const RidgeBasis& basis,
-             const RidgeSheetOptions& options, const RidgeConstants& constants)
+             const RidgeSheetOptions& options)
       : solid_(solid),
         lattice_(lattice),
         field_(field),
         basis_(basis),
         options_(options),
-        constants_(constants),
         parts_(solid, lattice),
         walls_(solid, lattice) {}
 
@@ -180,7 +177,7 @@ class SheetMaker {
     Collapsed left = collapsed_onto_ridges();
     RidgeSheet sheet;
     sheet.lattice = basis_.topology;
-    fill(solid_, lattice_, basis_, chosen_.anchors, constants_, options_.context, left.cells, sheet);
+    fill(solid_, lattice_, basis_, chosen_.anchors, options_.context, left.cells, sheet);
     sheet.fragments = chosen_.fragments;
     sheet.limbs = chosen_.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
     sheet.opened = left.opened;
@@ -197,7 +194,7 @@ class SheetMaker {
     {
       const RidgeValues values(lattice_, field_, basis_.derivatives, basis_.radius, walls_.distance,
                                walls_.clean ? &walls_.clean->distance : nullptr,
-                               constants_.weak_share * options_.bounds.low, constants_);
+                               RidgeConstants::weak_share * options_.bounds.low);
       throw_if_stopped(options_.context);
       crossings = ridge_crossings(lattice_, values);
       throw_if_stopped(options_.context);
@@ -216,7 +213,7 @@ class SheetMaker {
   Collapsed collapsed_onto_ridges() {
     SpikyLimbs limbs{basis_.complex, basis_.radius, basis_.thickness, basis_.limbs,
                      walls_.clean ? walls_.clean->noise : 0};
-    const std::vector<char> doubtful = possible_spikes(solid_, walls_.mesh, lattice_, limbs, constants_);
+    const std::vector<char> doubtful = possible_spikes(solid_, walls_.mesh, lattice_, limbs);
     const RidgeEvidence evidence{.complex = basis_.complex,
                                  .parts = parts_,
                                  .field = field_,
@@ -229,7 +226,7 @@ class SheetMaker {
                                  .radius = basis_.radius,
                                  .doubtful = doubtful,
                                  .core = basis_.core};
-    chosen_ = ridge_anchors(evidence, options_.bounds, constants_, options_.context);
+    chosen_ = ridge_anchors(evidence, options_.bounds, options_.context);
     const auto collapsed = [&] {
       std::vector<Anchor> anchors = chosen_.anchors;
       anchors.insert(anchors.end(), chosen_.core.begin(), chosen_.core.end());
@@ -238,7 +235,7 @@ class SheetMaker {
     };
     Collapsed left = collapsed();
     limbs.tips = chosen_.doubtful;
-    if (take_limbs(limbs_without_spikes(limbs, left.cells, constants_), chosen_)) left = collapsed();
+    if (take_limbs(limbs_without_spikes(limbs, left.cells), chosen_)) left = collapsed();
     if (count_components(basis_.complex, left.cells) != basis_.topology.components)
       throw CoreError(CoreError::Code::kInternal, "the collapse has parted what hangs together");
     drop(basis_.complex, chosen_.left_out, left.cells);
@@ -255,8 +252,7 @@ class SheetMaker {
                              .derivatives = basis_.derivatives,
                              .radius = basis_.radius,
                              .nearest = walls_.distance,
-                             .low = options_.bounds.low,
-                             .min_radius_share = constants_.min_radius_share};
+                             .low = options_.bounds.low};
     return skeleton_mesh(solid_, basis_.complex, left, from, options_.context);
   }
 
@@ -265,7 +261,6 @@ class SheetMaker {
   const FrameField& field_;
   const RidgeBasis& basis_;
   const RidgeSheetOptions& options_;
-  const RidgeConstants& constants_;
   const SolidParts parts_;
   const Walls walls_;
   std::vector<LatticeEdge> edges_;    // that the surface crosses
@@ -279,38 +274,36 @@ class SheetMaker {
 }  // namespace
 
 RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
-                       ExecutionContext* context, const RidgeConstants& constants) {
+                       ExecutionContext* context) {
   RidgeBasis basis{DualComplex(lattice)};
   // One after the other: each takes about as much memory as all that is kept, and beside each other they save a fifth of
   // the time at most.
   basis.topology = betti_numbers(basis.complex, context);
-  basis.radius = surface_distance(lattice);
+  basis.radius = surface_distance(lattice, context);
   if (solid.self_intersecting) basis.thickness = section_radii(field);
   {
     const auto tips = [&](std::span<const DualComplex::Cell> cuts) {
-      return limb_tips(basis.complex, basis.radius, field.erosion, constants.limb_reach, context, cuts);
+      return limb_tips(basis.complex, basis.radius, field.erosion, RidgeConstants::limb_reach, context, cuts);
     };
     LimbTips limbs = tips({});
     if (const auto noisy = noisy_solid(solid, lattice, basis))
       limbs = tips(bored_cells(*noisy, limbs.left, {}, context).cells);
     else if (CellSet left = limbs.left; basis.topology.holes > 0)
-      if (const auto cut =
-              fill_tunnels(solid, lattice, basis.complex, {}, basis.radius, left, {.context = context}).edges;
+      if (const auto cut = fill_tunnels(solid, lattice, basis.complex, {}, basis.radius, left, context).edges;
           !cut.empty())
         basis.opened_limbs = tips(cut).tips;
     basis.limbs = std::move(limbs.tips);
     basis.core = core_of(basis.complex, limbs.left);
     basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
   }
-  basis.derivatives = smoothed_derivatives(lattice, field, threads, context, constants);
+  basis.derivatives = smoothed_derivatives(lattice, field, threads, context);
   return basis;
 }
 
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       const RidgeBasis& basis, const RidgeSheetOptions& options,
-                       const RidgeConstants& constants) {
+                       const RidgeBasis& basis, const RidgeSheetOptions& options) {
   if (basis.derivatives.size() != lattice.points) refuse("the basis is not that of this lattice");
-  return SheetMaker(solid, lattice, field, basis, options, constants).run();
+  return SheetMaker(solid, lattice, field, basis, options).run();
 }
 
 }  // namespace affskel::core

@@ -46,8 +46,7 @@ inline constexpr std::size_t kMaxLoops = 8;
 /// @param threads >= 1; the result does not depend on it.
 /// @throws CoreError kCancelled when the context asks to stop.
 RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       unsigned threads = 1, ExecutionContext* context = nullptr,
-                       const RidgeConstants& constants = {});
+                       unsigned threads = 1, ExecutionContext* context = nullptr);
 
 struct RidgeSheetOptions {
   RidgeBounds bounds;
@@ -82,7 +81,6 @@ struct RidgeSheet : SheetMesh {
 /// @throws CoreError kBadInput when a bound is not finite or out of range, or the basis is not of as many
 ///   points; kLimit for 2^30 crossings and more; kCancelled when the context asks to stop.
 RidgeSheet ridge_sheet(const Solid& solid, const Lattice& lattice, const FrameField& field,
-                       const RidgeBasis& basis, const RidgeSheetOptions& options = {},
-                       const RidgeConstants& constants = {});
+                       const RidgeBasis& basis, const RidgeSheetOptions& options = {});
 
 }  // namespace affskel::core

@@ -9,6 +9,7 @@
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
 #include "core/ridge/local_depth.h"
+#include "core/ridge/ridge_constants.h"
 
 namespace affskel::core {
 namespace {
@@ -49,15 +50,13 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 
 RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
                          std::span<const PointDerivatives> derivatives, std::span<const float> radius,
-                         const DistanceToMesh& surface, const DistanceToMesh* smoothed, double min_strength,
-                         const RidgeConstants& constants)
+                         const DistanceToMesh& surface, const DistanceToMesh* smoothed, double min_strength)
     : field_(field),
       derivatives_(derivatives),
       radius_(radius),
       surface_(surface),
       smoothed_(smoothed),
       widest_(1.5 + static_cast<double>(*std::max_element(radius.begin(), radius.end()))),
-      constants_(constants),
       min_strength_(min_strength),
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
   require_within(min_strength, 1e-6, kMaxRidgeStrength,
@@ -72,14 +71,15 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
 }
 
 double RidgeValues::least_radius(const SheetVertex& vertex) const {
-  return constants_.min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
+  return RidgeConstants::min_radius_share * static_cast<double>(derivatives_[vertex.point].depth);
 }
 
 bool RidgeValues::is_deep(const SheetVertex& vertex) const {
   const auto radius = static_cast<double>(radius_[vertex.point]);
-  const double share = smoothed_ == nullptr ? constants_.min_ball_share : constants_.noisy_ball_share;
+  const double share =
+      smoothed_ == nullptr ? RidgeConstants::min_ball_share : RidgeConstants::noisy_ball_share;
   // No ball in the solid is too large for it: without a search.
-  if (is_surely_deep(radius, std::max(least_radius(vertex), share / constants_.min_ball * widest_)))
+  if (is_surely_deep(radius, std::max(least_radius(vertex), share / RidgeConstants::min_ball * widest_)))
     return true;
   return is_deep(vertex, surface_) || (smoothed_ != nullptr && is_deep(vertex, *smoothed_));
 }
@@ -89,16 +89,16 @@ bool RidgeValues::is_deep(const SheetVertex& vertex) const {
 bool RidgeValues::is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const {
   const Vec3 place = (1 / field_.spacing) * vertex.position, wall = surface.nearest_place(place);
   const double radius = norm(place - wall);
-  if (radius < std::max(least_radius(vertex), constants_.min_radius)) return false;
-  double share = constants_.min_ball_share;
+  if (radius < std::max(least_radius(vertex), RidgeConstants::min_radius)) return false;
+  double share = RidgeConstants::min_ball_share;
   if (smoothed_ != nullptr) {
     // Of the normals' difference, which is across the ridge, as much as leads to the wall.
     const Vec3 across = vertex.normal_a - vertex.normal_b;
     const double along = dot(across, place - wall) / radius, size = norm(across);
-    if (size > 0) share = std::lerp(share, constants_.noisy_ball_share, along * along / (size * size));
+    if (size > 0) share = std::lerp(share, RidgeConstants::noisy_ball_share, along * along / (size * size));
   }
   const Vec3 ball = (1 / share) * (place - wall);  // from the wall to its middle
-  return surface.nearest(wall + ball) < constants_.min_ball * norm(ball);
+  return surface.nearest(wall + ball) < RidgeConstants::min_ball * norm(ball);
 }
 
 Vec3 RidgeValues::gradient(std::uint32_t point) const {
@@ -120,7 +120,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
     const double w = weights[n];
     gradient = gradient + w * vector_of(here.gradient);
     value += w * static_cast<double>(here.value);
-    width += w * constants_.width_at(static_cast<double>(here.depth));
+    width += w * RidgeWidths{}.at(static_cast<double>(here.depth));
     least += w * static_cast<double>(ridge.least);
     radius += w * static_cast<double>(radius_[points[n]]);
     vertex.ratio += w * static_cast<double>(ridge.ratio);
@@ -132,7 +132,7 @@ SheetVertex RidgeValues::at(Of of, const Vec3& position, std::span<const std::ui
   if (of == Of::kCurve) {
     vertex.strength = vertex.ratio * strength_of(least, value, square);
   } else {
-    const double slope = std::max(0.0, vertex.ratio) * least * constants_.strip * radius;
+    const double slope = std::max(0.0, vertex.ratio) * least * RidgeConstants::strip * radius;
     vertex.strength = strength_of(least, value, square + slope * slope);
   }
   // grad P one width away along e is g -+ lambda width e, to first order.

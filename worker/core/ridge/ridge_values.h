@@ -12,7 +12,6 @@
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
-#include "core/ridge/ridge_constants.h"
 #include "core/ridge/smoothed_derivatives.h"
 #include "core/spatial/distance_to_mesh.h"
 
@@ -41,7 +40,7 @@ class RidgeValues {
   /// @throws CoreError kBadInput when the strength is out of range.
   RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
               std::span<const float> radius, const DistanceToMesh& surface, const DistanceToMesh* smoothed,
-              double min_strength, const RidgeConstants& constants = {});
+              double min_strength);
 
   const PointRidge& ridge(std::uint32_t point) const {
     static constexpr PointRidge kNoRidge;
@@ -78,7 +77,6 @@ class RidgeValues {
   const DistanceToMesh& surface_;
   const DistanceToMesh* smoothed_;
   double widest_;  // no ball in the solid is larger, spacings
-  RidgeConstants constants_;
   double min_strength_;
   Matrix3 to_mesh_;  // F^-T
   // Of 32 points: which have a ridge, and how many before them have.

@@ -82,4 +82,22 @@ class RowBand {
 /// Per place of a band: the rank of the sample point there, or kNone.
 std::vector<std::uint32_t> ranks_in(const RowBand& band, const Lattice& lattice);
 
+/// The sample points near a place.
+class NearPoints {
+ public:
+  explicit NearPoints(const Lattice& lattice) : band_(lattice, 0), rank_(ranks_in(band_, lattice)) {}
+
+  /// As RowBand::any_near(), is_wanted(rank, square of its distance).
+  template <class IsWanted>
+  bool any_near(const Vec3& at, double reach, const IsWanted& is_wanted) const {
+    return band_.any_near(at, reach, [&](std::size_t place, double square) {
+      return rank_[place] != affskel::core::kNone && is_wanted(rank_[place], square);
+    });
+  }
+
+ private:
+  RowBand band_;
+  std::vector<std::uint32_t> rank_;  // per place of the band
+};
+
 }  // namespace affskel::core

@@ -15,6 +15,7 @@
 #include "core/mesh/edges.h"
 #include "core/mesh/patch_senses.h"
 #include "core/ridge/local_depth.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/ridge/skeleton_cells.h"
 #include "core/solid/solid_membership.h"
 
@@ -280,7 +281,8 @@ class Placing {
     walk(v);
     const SheetVertex& vertex = mesh_.vertices[v];
     const auto radius = static_cast<double>(from_.radius[vertex.point]);
-    const double least = from_.min_radius_share * static_cast<double>(from_.derivatives[vertex.point].depth);
+    const double least =
+        RidgeConstants::min_radius_share * static_cast<double>(from_.derivatives[vertex.point].depth);
     if (radius >= kThin && is_surely_deep(radius, least)) return way;
     Clear& known = clear_[v];  // of a vertex that hardly moves any more it holds for many passes
     if (norm(vertex.position + way - known.about) < known.radius - from_.lattice.spacing * least) return way;

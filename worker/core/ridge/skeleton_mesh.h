@@ -28,7 +28,6 @@ struct SkeletonParts {
   std::span<const float> radius;                  ///< per sample point: see surface_distance()
   const DistanceToMesh& nearest;                  ///< of the solid's surface, lattice coordinates
   double low;                                     ///< the strength at which the surface ends
-  double min_radius_share;                        ///< see RidgeConstants
 };
 
 /// Gives the cells of a collapsed complex their places in the solid.

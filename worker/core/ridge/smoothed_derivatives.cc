@@ -237,12 +237,11 @@ float nearness(double width, const std::vector<double>& ladder, std::size_t step
 
 // Per point: how far the wider of its Gaussians reaches.
 std::vector<std::uint8_t> reaches(const std::vector<float>& depth, const std::vector<double>& ladder,
-                                  const RidgeConstants& constants) {
+                                  const RidgeWidths& widths) {
   std::vector<std::uint8_t> result;
   result.reserve(depth.size());
   for (const float d : depth) {
-    const auto wider =
-        std::lower_bound(ladder.begin(), ladder.end(), constants.width_at(static_cast<double>(d)));
+    const auto wider = std::lower_bound(ladder.begin(), ladder.end(), widths.at(static_cast<double>(d)));
     result.push_back(static_cast<std::uint8_t>(reach_of(wider == ladder.end() ? ladder.back() : *wider)));
   }
   return result;
@@ -252,18 +251,17 @@ std::vector<std::uint8_t> reaches(const std::vector<float>& depth, const std::ve
 
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
                                                    unsigned threads, ExecutionContext* context,
-                                                   const RidgeConstants& constants) {
-  std::vector<float> depth = local_depth(lattice, field);
-  double widest = constants.min_width;
-  for (const float d : depth) widest = std::max(widest, constants.width_at(static_cast<double>(d)));
+                                                   const RidgeWidths& widths) {
+  std::vector<float> depth = local_depth(lattice, field, context);
+  double widest = widths.least;
+  for (const float d : depth) widest = std::max(widest, widths.at(static_cast<double>(d)));
   throw_if_stopped(context);
-  std::vector<double> ladder{constants.min_width};
-  while (ladder.back() < widest)
-    ladder.push_back(std::min(ladder.back() * kLadderFactor, constants.max_width));
+  std::vector<double> ladder{widths.least};
+  while (ladder.back() < widest) ladder.push_back(std::min(ladder.back() * kLadderFactor, widths.greatest));
   const ScaledField scaled(field);
   const ContinuedField continued = continued_field(
       lattice, [&](std::uint32_t p) { return scaled.value(p); },
-      [&](std::uint32_t p) { return scaled.gradient(p); }, reaches(depth, ladder, constants));
+      [&](std::uint32_t p) { return scaled.gradient(p); }, reaches(depth, ladder, widths));
   std::vector<PointDerivatives> result(depth.size());  // not before: eleven numbers a point
   for (std::uint32_t p = 0; p < result.size(); ++p) {
     result[p].depth = depth[p];
@@ -273,7 +271,7 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   const std::vector<std::span<const LatticeRun>> layers = layers_of(lattice);
   for (std::size_t step = 0; step < ladder.size(); ++step) {
     const auto weight = [&](std::uint32_t p) {
-      return nearness(constants.width_at(static_cast<double>(result[p].depth)), ladder, step);
+      return nearness(widths.at(static_cast<double>(result[p].depth)), ladder, step);
     };
     parallel_for(threads, threads,
                  [&](std::size_t part) {  // layers of one remainder: they are unevenly large

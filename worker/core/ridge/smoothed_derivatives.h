@@ -45,6 +45,6 @@ inline Matrix3 hessian_of(const PointDerivatives& point) {
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const FrameField& field,
                                                    unsigned threads = 1, ExecutionContext* context = nullptr,
-                                                   const RidgeConstants& constants = {});
+                                                   const RidgeWidths& widths = {});
 
 }  // namespace affskel::core

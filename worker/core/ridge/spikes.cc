@@ -6,6 +6,7 @@
 
 #include "core/collapse/shortest_ways.h"
 #include "core/contour/edge_cells.h"
+#include "core/ridge/ridge_constants.h"
 #include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
@@ -21,22 +22,22 @@ Mesh crossing_triangles(const Solid& solid, const Mesh& walls) {
 }
 
 // The longest spike on a limb of that thickness, spacings.
-double longest_spike(float thickness, const RidgeConstants& constants) {
-  return constants.end_spacings + constants.end_radii * static_cast<double>(thickness);
+double longest_spike(float thickness) {
+  return RidgeConstants::end_spacings + RidgeConstants::end_radii * static_cast<double>(thickness);
 }
 
-double longest_spike(const SpikyLimbs& limbs, const RidgeConstants& constants) {
-  return longest_spike(*std::max_element(limbs.thickness.begin(), limbs.thickness.end()), constants);
+double longest_spike(const SpikyLimbs& limbs) {
+  return longest_spike(*std::max_element(limbs.thickness.begin(), limbs.thickness.end()));
 }
 
 }  // namespace
 
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
-                                  const SpikyLimbs& limbs, const RidgeConstants& constants) {
+                                  const SpikyLimbs& limbs) {
   if (solid.crossings.empty()) return {};
   const Mesh mesh = crossing_triangles(solid, walls);
   const DistanceToMesh crossing(mesh);
-  const double longest = std::min(kSpike * limbs.noise, longest_spike(limbs, constants));
+  const double longest = std::min(kSpike * limbs.noise, longest_spike(limbs));
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
   for (const LimbTip& tip : limbs.tips) {
@@ -48,18 +49,17 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   return possible;
 }
 
-std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton,
-                                          const RidgeConstants& constants) {
+std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton) {
   if (limbs.tips.empty()) return {};
   std::vector<char> has_skeleton(limbs.complex.cubes(), 0);
   skeleton.for_each([&](DualComplex::Cell cell) {
     for (const auto& member : limbs.complex.star(cell)) has_skeleton[member.cube] = 1;
   });
-  const double longest = longest_spike(limbs, constants);
+  const double longest = longest_spike(limbs);
   std::vector<LimbTip> result;
   for (const LimbTip& tip : limbs.tips) {
     const auto stands_on = [&](std::uint32_t cube, float way) {
-      const double spike = longest_spike(limbs.thickness[cube], constants);
+      const double spike = longest_spike(limbs.thickness[cube]);
       return has_skeleton[cube] != 0 && tip.length <= spike && static_cast<double>(way) <= tip.length + spike;
     };
     if (!is_near(limbs.complex, tip.vertex, static_cast<float>(tip.length + longest), stands_on))

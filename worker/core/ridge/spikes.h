@@ -7,7 +7,6 @@
 #include "core/collapse/limb_tips.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
-#include "core/ridge/ridge_constants.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
@@ -27,13 +26,12 @@ struct SpikyLimbs {
 /// @param walls the solid's surface in lattice coordinates.
 /// @return per limb; empty where the surface does not cross itself.
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
-                                  const SpikyLimbs& limbs, const RidgeConstants& constants = {});
+                                  const SpikyLimbs& limbs);
 
 /// Those limbs that are none: a spike is no longer than the limb is thick that it stands on, and ends no farther than
 /// that and its length from the limb's skeleton.
 /// @param skeleton of the solid without these limbs.
-std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton,
-                                          const RidgeConstants& constants = {});
+std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton);
 
 inline constexpr double kSpike = 6;
 

@@ -17,11 +17,7 @@ constexpr double kReached = 2;  // spacings: sample points so near tell of a cor
 class Ends {
  public:
   Ends(const Solid& solid, const Lattice& lattice, std::span<const char> left_out)
-      : solid_(solid),
-        indices_of_(lattice),
-        band_(lattice, 0),
-        rank_(ranks_in(band_, lattice)),
-        left_out_(left_out) {}
+      : solid_(solid), indices_of_(lattice), points_(lattice), left_out_(left_out) {}
 
   std::vector<UnreachedEnd> run(std::span<const Vec3> skeleton, ExecutionContext* context) {
     StopCheck stop(context);
@@ -58,16 +54,15 @@ class Ends {
  private:
   // Whether a sample point that counts lies within kReached.
   bool is_reached(const Vec3& at) const {
-    return band_.any_near(at, kReached, [&](std::size_t place, double square) {
-      return square <= kReached * kReached && rank_[place] != kNone && left_out_[rank_[place]] == 0;
+    return points_.any_near(at, kReached, [&](std::uint32_t rank, double square) {
+      return square <= kReached * kReached && left_out_[rank] == 0;
     });
   }
 
   const Solid& solid_;
   LatticeIndices indices_of_;
-  RowBand band_;
-  std::vector<std::uint32_t> rank_;  // per place of the band
-  std::span<const char> left_out_;   // per sample point: it has no skeleton
+  NearPoints points_;
+  std::span<const char> left_out_;  // per sample point: it has no skeleton
 };
 
 }  // namespace

@@ -258,7 +258,7 @@ class SolidBuilder {
   Solid without(const std::vector<std::uint8_t>& specks) {
     std::vector<std::uint32_t> kept, left_out;
     for (std::uint32_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
-      const bool speck = specks[solid_.shells[solid_.triangle_shell[t]].solid] != 0;
+      const bool speck = specks[solid_.solid_of(t)] != 0;
       (speck ? left_out : kept).push_back(t);
     }
     note_specks(specks, left_out);
@@ -278,7 +278,7 @@ class SolidBuilder {
 
   void note_specks(const std::vector<std::uint8_t>& specks, const std::vector<std::uint32_t>& triangles) {
     const auto count = std::count(specks.begin(), specks.end(), 1);
-    const std::uint32_t solid = solid_.shells[solid_.triangle_shell[triangles.front()]].solid;
+    const std::uint32_t solid = solid_.solid_of(triangles.front());
     const double volume = solid_sizes(solid_)[solid].volume * std::ldexp(1.0, 3 * solid_.exponent);
     const std::string message = std::to_string(count) + " of " + std::to_string(specks.size()) + " solids (" +
                                 std::to_string(triangles.size()) +
@@ -376,6 +376,12 @@ Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vecto
   std::vector<std::uint32_t> all(mesh.triangles.size());
   std::iota(all.begin(), all.end(), 0U);
   return SolidBuilder(mesh, std::move(all), options, vertex_line, triangle_line).run();
+}
+
+DisjointSets joined_solids(const Solid& solid) {
+  DisjointSets sets(solid.solid_volume.size());
+  for (const auto& [a, b] : solid.crossings) sets.unite(solid.solid_of(a), solid.solid_of(b));
+  return sets;
 }
 
 bool turn_as_in(const Solid& solid, Mesh& mesh) {

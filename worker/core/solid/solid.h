@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
 
@@ -60,11 +61,19 @@ struct Solid {
 
   /// Mesh units per scaled unit, 2^exponent.
   double scale() const { return std::ldexp(1.0, exponent); }
+  /// A volume in scaled coordinates.
+  double scaled(double mesh_volume) const { return std::ldexp(mesh_volume, -3 * exponent); }
+
+  /// The connected solid that a triangle bounds.
+  std::uint32_t solid_of(std::uint32_t triangle) const { return shells[triangle_shell[triangle]].solid; }
 };
 
 /// Whether triangles of different surfaces cross or touch each other.  Looks for them again.
 /// @throws CoreError kCancelled when the context asks to stop.
 bool surfaces_meet(const Solid& solid, ExecutionContext* context = nullptr);
+
+/// The connected solids, those joined whose surfaces pass through each other.
+DisjointSets joined_solids(const Solid& solid);
 
 /// Checks that the mesh bounds a solid and normalises it.
 /// @param vertex_line, triangle_line lines for messages (see OffMesh); may be empty.

@@ -1,7 +1,6 @@
 #include "core/text/off_file.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/number_text.h"
 #include "core/base/error.h"
@@ -174,11 +173,12 @@ class OffReader {
     const std::size_t before = result_.mesh.triangles.size();
     // Up to the square of the number of sides; see cut_polygon.
     stop_.did(sides <= kMaxEarCorners ? sides * sides : sides);
-    if (sides == 4) quads_.push_back(static_cast<std::uint32_t>(before));
-    cut_polygon(result_.mesh.points, corners_, result_.mesh.triangles);
+    // A triangle with a corner twice has no area, which is for users of the mesh to judge.
+    if (const auto twice = add_polygon(result_, corners_, rows_.line(), quads_))
+      fail_at(rows_.line(),
+              "face " + std::to_string(f) + " uses vertex " + std::to_string(*twice) + " twice");
     result_.triangle_line.insert(result_.triangle_line.end(), result_.mesh.triangles.size() - before,
                                  static_cast<std::uint32_t>(rows_.line()));
-    if (sides > 3) count_cut(result_, corners_, rows_.line());
   }
 
   void read_corners(std::uint64_t f, std::uint64_t sides) {
@@ -191,19 +191,6 @@ class OffReader {
       }
       corners_.push_back(static_cast<std::uint32_t>(v));
     }
-    // A triangle with a corner twice has no area, which is for users of the mesh to judge.
-    if (sides == 3) return;
-    if (const auto twice = repeated_corner()) {
-      fail_at(rows_.line(),
-              "face " + std::to_string(f) + " uses vertex " + std::to_string(*twice) + " twice");
-    }
-  }
-
-  std::optional<std::uint32_t> repeated_corner() {
-    sorted_ = corners_;
-    std::sort(sorted_.begin(), sorted_.end());
-    const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end());
-    return twice == sorted_.end() ? std::nullopt : std::optional(*twice);
   }
 
   [[noreturn]] void ends_early(const char* what, std::uint64_t at, std::uint64_t count) const {
@@ -218,20 +205,32 @@ class OffReader {
   bool texture_ = false, colour_ = false, normal_ = false, homogeneous_ = false;
   std::size_t unpromised_ = 0;  // numbers per vertex that the header does not promise
   std::uint64_t vertex_count_ = 0, face_count_ = 0, counts_line_ = 0;
-  std::vector<std::uint32_t> corners_, sorted_;
+  std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> quads_;  // first triangles of the faces with four sides
   OffMesh result_;
 };
 
 }  // namespace
 
-void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64_t line) {
-  const Unevenness found = unevenness(off.mesh.points, corners);
-  ++off.polygons_cut;
-  off.uneven_volume += found.volume;
-  if (!(found.distance > off.uneven_distance)) return;
-  off.uneven_distance = found.distance;
-  off.uneven_line = line;
+std::optional<std::uint32_t> add_polygon(OffMesh& off, std::span<const std::uint32_t> corners,
+                                         std::uint64_t line, std::vector<std::uint32_t>& quads) {
+  Mesh& mesh = off.mesh;
+  if (corners.size() > 3) {
+    std::vector<std::uint32_t> sorted(corners.begin(), corners.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end()) return *twice;
+    const Unevenness found = unevenness(mesh.points, corners);
+    ++off.polygons_cut;
+    off.uneven_volume += found.volume;
+    if (found.distance > off.uneven_distance) {
+      off.uneven_distance = found.distance;
+      off.uneven_line = line;
+    }
+  }
+  if (corners.size() == 4) quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+  cut_polygon(mesh.points, corners, mesh.triangles);
+  return std::nullopt;
 }
 
 OffMesh read_off(std::string_view bytes, ExecutionContext* context) {

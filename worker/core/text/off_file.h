@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,8 +32,12 @@ struct OffMesh {
   std::vector<PassedOver> passed_over;       ///< of formats that hold more than a mesh, in the file's order
 };
 
-/// Counts a polygon that is cut.
-void count_cut(OffMesh& off, std::span<const std::uint32_t> corners, std::uint64_t line);
+/// Cuts a polygon into triangles (see cut_polygon), and counts it where it has more than three corners; of those with four
+/// the first triangle goes to `quads`.
+/// @param corners three at least, vertices of the mesh.
+/// @return one that it has twice, as a triangle alone may: then nothing is added.
+std::optional<std::uint32_t> add_polygon(OffMesh& off, std::span<const std::uint32_t> corners,
+                                         std::uint64_t line, std::vector<std::uint32_t>& quads);
 
 /// Reads a Geomview OFF file in text form, strictly: header [ST][C][N][4]OFF, counts on the same or on the
 /// next line (the edge count may be absent), `#` comments, lines as TextRows has them; per vertex three finite

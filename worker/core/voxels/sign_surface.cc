@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -231,7 +232,7 @@ class Marcher {
   bool is_better_turned(const Triangle& s, const Triangle& t) {
     constexpr double kFlat = 0.996;  // 5 degrees
     const Vec3 a = twice_area(mesh_, s), b = twice_area(mesh_, t);
-    if (dot(a, b) > kFlat * norm(a) * norm(b)) return angle_at_apex(s) + angle_at_apex(t) > M_PI;
+    if (dot(a, b) > kFlat * norm(a) * norm(b)) return angle_at_apex(s) + angle_at_apex(t) > std::numbers::pi;
     return std::abs(value_between(s[2], t[2])) < std::abs(value_between(s[0], s[1]));
   }
   double value_between(std::uint32_t v, std::uint32_t w) {

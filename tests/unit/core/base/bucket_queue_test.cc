@@ -23,7 +23,10 @@ TEST(BucketQueue, TakesItemsByNumberThenInTheOrderInWhichTheyCame) {
     int next = 0;
     const auto push = [&] {
       for (std::uint64_t left = random.next() % 4; left > 0; --left, ++next) {
-        const std::size_t number = random.next() % 20 + (last > 10 ? last - 10 : 0);
+        // Far ones: the ring has to end before them, and to meet them when they are near.
+        const std::size_t far =
+            random.next() % 8 == 0 ? BucketQueue<int>::kNear - 20 + random.next() % 50 : 0;
+        const std::size_t number = random.next() % 20 + far + (last > 10 ? last - 10 : 0);
         queue.push(number, next);
         expected.emplace(std::max(number, last), next);
       }

@@ -139,15 +139,6 @@ TEST(SignificantShocks, NearPiecesAreWeighedAsOne) {
   EXPECT_EQ(kept.pieces.size(), 1U);
 }
 
-TEST(SignificantShocks, HolesAreFilledButNotTheRim) {
-  const PrunedPlane plane = {{0, 9, 0, 4, 1}, {0, 4, 4, 1, 1}, {4, 1, 4, 1, 0.01},
-                             {5, 4, 4, 1, 1}, {0, 9, 5, 4, 1}, {0, 9, 9, 1, 0.01}};
-  const SignificantShocks kept = plane.prune();
-  EXPECT_TRUE(keeps(kept, 4, 4));
-  EXPECT_FALSE(keeps(kept, 4, 9));
-  EXPECT_EQ(kept.shocks.size(), 81U);
-}
-
 // The volume is 40 * 20 * 4 = 3200, two thousandths of it 6.4.
 TEST(SignificantShocks, WhereLittleIsCutOffNoShockIsStrong) {
   const PrunedPlane plane = {{0, 10, 0, 10, 1, 1, 6.5}, {20, 10, 0, 10, 1, 1, 6.3}};

@@ -128,7 +128,7 @@ Mesh webbed_ring() {
 TEST(CurveSkeleton, HasNoLoopRoundAWebThinnerThanTheSpacing) {
   const Curved ring(webbed_ring(), 0.15, "triangles");
   ASSERT_EQ(betti_numbers(ring.solid().solid), (BettiNumbers{1, 0, 0}));
-  ASSERT_EQ(ring.ridge().filled.number, 1U) << "the lattice has the loop";
+  ASSERT_EQ(ring.ridge().filled.edges.size(), 1U) << "the lattice has the loop";
   EXPECT_EQ(betti(ring.at()), (BettiNumbers{1, 0, 0}));
 }
 
@@ -147,7 +147,7 @@ Mesh mitten(double arm) {
 
 TEST(CurveSkeleton, KeepsFingersThatTheLatticeJoinsAtTheirTips) {
   const Curved solid(mitten(2), 0.097, "triangles");
-  ASSERT_EQ(solid.ridge().filled.number, 1U);
+  ASSERT_EQ(solid.ridge().filled.edges.size(), 1U);
   const CurveSkeleton curve = solid.at();
   EXPECT_EQ(betti(curve), (BettiNumbers{1, 0, 0}));
   double left = 0, right = 0;
@@ -163,7 +163,7 @@ TEST(CurveSkeleton, KeepsFingersThatTheLatticeJoinsAtTheirTips) {
 // The loop of the fingers ends no line that the solid is thinned to.
 TEST(CurveSkeleton, AnArmIsAsLongWhetherTheLatticeJoinsItsFingers) {
   const Curved solid(mitten(12), 0.097, "triangles");
-  ASSERT_EQ(solid.ridge().filled.number, 1U);
+  ASSERT_EQ(solid.ridge().filled.edges.size(), 1U);
   const CurveSkeleton curve = solid.at(4);
   EXPECT_EQ(curve.ends, 2U);
   double low = 0, high = 0;

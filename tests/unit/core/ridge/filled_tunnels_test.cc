@@ -27,7 +27,7 @@ Mesh skinned_ring() {
 
 struct Filled {
   BettiNumbers complex, skeleton;
-  std::uint32_t filled = 0;
+  std::size_t filled = 0;
 };
 
 Filled filled(const Mesh& mesh, double spacing) {
@@ -37,7 +37,7 @@ Filled filled(const Mesh& mesh, double spacing) {
   CellSet left = collapse(complex, {}).cells;
   Filled result;
   result.complex = betti_numbers(complex);
-  result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left).number;
+  result.filled = fill_tunnels(solid.solid, solid.lattice, complex, {}, radius, left).edges.size();
   const CellMesh cells = mesh_of_cells(complex, left);
   result.skeleton = sheet_betti_numbers(cells.mesh, cells.segments);
   return result;

@@ -41,10 +41,8 @@ struct Limb {
 
 std::vector<RidgeCurve> curves_of(const BoxLattice& box, const FrameField& field, double min_strength = 0.5,
                                   float radius = 100, ExecutionContext* context = nullptr) {
-  RidgeConstants narrow;
-  narrow.min_width = narrow.max_width = 1;
   const std::vector<PointDerivatives> derivatives =
-      smoothed_derivatives(box.lattice, field, 1, nullptr, narrow);
+      smoothed_derivatives(box.lattice, field, 1, nullptr, {.least = 1, .greatest = 1});
   const std::vector<float> everywhere(box.lattice.points, radius);
   const double low = 10 - static_cast<double>(radius), side = 2 * static_cast<double>(radius);
   const Mesh walls = moved(make_box(side, side, side), {low, low, low});  // lattice coordinates

@@ -250,8 +250,8 @@ TEST(RidgeSheet, OfTwoCylindersIsTheAxisOfEach) {
 // E is greatest on a sphere, whose normals have all directions: eigenvectors of any sign make one closed
 // sheet.
 TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
-  const BoxLattice box(19, 19, 19);
-  const Vec3 centre{9.1, 8.9, 9.05};
+  const BoxLattice box(23, 23, 23);  // so large that the sphere is not too near to its surface
+  const Vec3 centre{11.1, 10.9, 11.05};
   const double radius = 5.5;
   const Branch shell{[&](const Vec3& u) {
                        const double off = norm(u - centre) - radius;
@@ -261,12 +261,10 @@ TEST(RidgeSheet, IsClosedWhereEIsGreatestOnASphere) {
                        const double r = norm(u - centre);
                        return (-2 * (r - radius) / r) * (u - centre);
                      }};
-  RidgeConstants constants;
-  constants.min_width = constants.max_width = 1;
-  constants.min_radius_share = 0;  // E is large at the surface, too
   const FrameField field = field_of_branches(box.lattice, {shell});
-  const RidgeBasis basis = ridge_basis(box.solid, box.lattice, field, 1, nullptr, constants);
-  const RidgeSheet sheet = ridge_sheet(box.solid, box.lattice, field, basis, {}, constants);
+  RidgeBasis basis = ridge_basis(box.solid, box.lattice, field);
+  basis.derivatives = smoothed_derivatives(box.lattice, field, 1, nullptr, {.least = 1, .greatest = 1});
+  const RidgeSheet sheet = ridge_sheet(box.solid, box.lattice, field, basis);
   // The box has no void: the pocket is opened, at one square.
   EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
   EXPECT_EQ(sheet.opened, 1U);

@@ -42,9 +42,8 @@ TEST(SmoothedDerivatives, OfAQuadraticAreItsOwnAtAnyWidth) {
   const Quadratic q;
   const FrameField field = field_of_branches(box.lattice, {q.branch()});
   for (const double width : {1.0, 2.0, 3.3}) {
-    RidgeConstants constants;
-    constants.min_width = constants.max_width = width;
-    const auto found = smoothed_derivatives(box.lattice, field, 1, nullptr, constants);
+    const auto found =
+        smoothed_derivatives(box.lattice, field, 1, nullptr, {.least = width, .greatest = width});
     for_each_point(box.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       // Where the kernel does not reach outside.
       if (std::min({i, j, k}) < 9 || std::max({i, j, k}) > 15) return;
@@ -63,15 +62,13 @@ TEST(SmoothedDerivatives, BlendsTheWidthsBetweenThoseOfTheLadder) {
   const BoxLattice box(17, 17, 17);
   // E grows along x, its depth too: widths from the least to the largest.
   const FrameField field = field_of_branches(box.lattice, {linear_branch(1, {1, 0, 0})});
-  RidgeConstants constants;
-  constants.min_width = 1;
-  constants.max_width = 3;
-  const auto found = smoothed_derivatives(box.lattice, field, 1, nullptr, constants);
+  const RidgeWidths widths{.least = 1, .greatest = 3};
+  const auto found = smoothed_derivatives(box.lattice, field, 1, nullptr, widths);
   const std::vector<float> depth = local_depth(box.lattice, field);
   double least = 100, most = 0;
   for (std::size_t p = 0; p < found.size(); ++p) {
     EXPECT_EQ(found[p].depth, depth[p]);
-    const double width = constants.width_at(double(depth[p]));
+    const double width = widths.at(double(depth[p]));
     EXPECT_EQ(width, std::clamp(0.35 * double(depth[p]), 1.0, 3.0));
     least = std::min(least, width);
     most = std::max(most, width);

@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/files/read/shape_parsers.h"
 #include "core/files/read/voxel_parsers.h"
-#include "core/mesh/polygon_cut.h"
 #include "core/mesh/quad_diagonals.h"
 #include "core/text/text_rows.h"
 #include "core/voxels/isosurface.h"
@@ -263,20 +262,12 @@ MeshFile parse_mesh_file(std::string_view extension, std::string_view bytes, con
 
 void add_polygon(ShapeFile& file, const std::vector<std::int64_t>& corners, const std::string& place,
                  std::uint64_t line) {
-  Mesh& mesh = file.off.mesh;
   if (corners.size() < 3) {
     fail_at(line, place + " has " + base::counted(corners.size(), "corner") + ", needs 3");
   }
   std::vector<std::uint32_t> indices;
-  for (const std::int64_t corner : corners) indices.push_back(known_vertex(mesh, corner, place, line));
-  std::vector<std::uint32_t> sorted = indices;
-  std::sort(sorted.begin(), sorted.end());
-  if (indices.size() > 3 && std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-    fail_at(line, place + " uses a vertex twice");
-  }
-  if (indices.size() == 4) file.quads.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
-  if (indices.size() > 3) count_cut(file.off, indices, line);
-  cut_polygon(mesh.points, indices, mesh.triangles);
+  for (const std::int64_t corner : corners) indices.push_back(known_vertex(file.mesh(), corner, place, line));
+  if (add_polygon(file.off, indices, line, file.quads)) fail_at(line, place + " uses a vertex twice");
 }
 
 void add_polyline(ShapeFile& file, const std::vector<std::int64_t>& vertices, const std::string& place,

@@ -9,7 +9,7 @@
 
 namespace affskel::core {
 
-// One parser per format; see read_shape.  All leave `path` empty and throw CoreError kBadInput, with the line for text;
+// One parser per format; see parse_shape.  All leave `path` empty and throw CoreError kBadInput, with the line for text;
 // those of glTF and 3MF kLimit, too, when they place meshes so often that they grow without bound.
 
 ShapeFile parse_csv(std::string_view bytes);
