@@ -28,7 +28,10 @@ class Joints {
         members_(lines.vertices.size()),
         ends_(line_ends(lines.vertices.size(), polylines_)),
         gone_(polylines_.size(), 0) {
-    for (std::uint32_t v = 0; v < joint_.size(); ++v) members_[joint_[v] = v] = {v};
+    for (std::uint32_t v = 0; v < joint_.size(); ++v) {
+      members_[joint_[v] = v] = {v};
+      middle_ = middle_ + (1 / static_cast<double>(joint_.size())) * place(v);
+    }
     for (std::uint32_t n = 0; n < polylines_.size(); ++n) {
       const std::uint32_t a = polylines_[n].front(), b = polylines_[n].back();
       if (a != b && ends_[a].size() > 2 && ends_[b].size() > 2)
@@ -46,6 +49,9 @@ class Joints {
  private:
   const Vec3& place(std::uint32_t v) const { return places_[lines_.vertices[v]]; }
   double ball(std::uint32_t v) const { return ball_[lines_.vertices[v]]; }
+  // Which of two joints stays: balls, in spacings of the lattice, are often equal, and numbers would not be those of a
+  // mirror image.
+  std::pair<double, double> rank(std::uint32_t v) const { return {ball(v), -norm(place(v) - middle_)}; }
   double distance(std::uint32_t a, std::uint32_t b) const { return norm(place(a) - place(b)); }
 
   double length_of(std::span<const std::uint32_t> line) const {
@@ -86,7 +92,7 @@ class Joints {
   // @return how much it looked at.
   std::size_t join(std::uint32_t n) {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
-    if (ball(b) > ball(a)) std::swap(a, b);
+    if (rank(b) > rank(a)) std::swap(a, b);
     const std::size_t looked_at =
         members_[a].size() * members_[b].size() + polylines_[n].size() + ends_[a].size();
     if (a == b || !are_together(a, b) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
@@ -123,6 +129,7 @@ class Joints {
   const SheetLines& lines_;
   std::span<const Vec3> places_;
   std::span<const double> ball_;
+  Vec3 middle_;                                              // of all vertices
   const std::vector<std::vector<std::uint32_t>> polylines_;  // by numbers in lines_.vertices
   std::vector<std::uint32_t> joint_;                 // per vertex: itself, or the joint that stands for it
   std::vector<std::vector<std::uint32_t>> members_;  // per joint: what it stands for

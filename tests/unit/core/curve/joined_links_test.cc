@@ -54,6 +54,24 @@ std::size_t count(const std::vector<std::uint32_t>& degrees, std::uint32_t which
   return static_cast<std::size_t>(std::count(degrees.begin(), degrees.end(), which));
 }
 
+// Of equal balls the joint nearer to the middle stays, whatever the numbers are, so that a mirror image has the mirror
+// image.
+TEST(JoinedLinks, NumbersDoNotTellWhichStays) {
+  for (const bool turned : {false, true}) {
+    Fork fork(1.25);
+    if (turned)
+      for (Vec3& place : fork.places) place.x = 1.25 - place.x;
+    const Vec3 stays = turned ? Vec3{} : Vec3{1.25, 0, 0};
+    for (Vec3& place : fork.places)  // the lines of the one that stays are longer
+      if (place.x < 0 ? turned : place.x > 1.25 && !turned) place.x *= 3;
+    const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
+    const std::vector<std::uint32_t> degrees = fork.degrees(joined);
+    ASSERT_EQ(count(degrees, 4), 1U);
+    const auto joint = std::find(degrees.begin(), degrees.end(), 4U) - degrees.begin();
+    EXPECT_EQ(norm(fork.places[joined.vertices[static_cast<std::size_t>(joint)]] - stays), 0) << turned;
+  }
+}
+
 TEST(JoinedLinks, JointsInEachOthersBallsBecomeOne) {
   Fork fork(1.25);  // less than 1.3 times the smaller ball
   fork.ball[1] = 1.5;
