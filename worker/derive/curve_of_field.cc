@@ -36,8 +36,8 @@ const core::CurveSkeleton& CurveOfField::at(double threshold) const {
   const auto known = curves.find(options.least_reach);
   if (known != curves.end()) return known->second;
   return curves
-      .emplace(options.least_reach, core::curve_skeleton(field_.job().solid(), field_.lattice(),
-                                                         ridge_.basis(), sheet_, options))
+      .emplace(options.least_reach,
+               core::curve_skeleton(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_, options))
       .first->second;
 }
 

@@ -39,9 +39,8 @@ v1::TriangleMesh surface(const FinishedField& field, const v1::SurfaceParams& pa
 
 // What others derive may take as much memory as what is known.
 bool looks_at_ridges(const v1::Lease& lease) {
-  const v1::Operator which = lease.kind() == v1::TASK_KIND_SURFACE
-                                 ? lease.surface().skeleton().operator_()
-                                 : lease.skeleton().operator_();
+  const v1::Operator which = lease.kind() == v1::TASK_KIND_SURFACE ? lease.surface().skeleton().operator_()
+                                                                   : lease.skeleton().operator_();
   return lease.kind() == v1::TASK_KIND_PARTS || which == v1::OPERATOR_RIDGE || which == v1::OPERATOR_CURVE;
 }
 

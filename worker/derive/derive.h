@@ -26,7 +26,6 @@ struct Derived {
 /// @throws core::CoreError for a wrong parameter, or an artefact too large to be sent; kCancelled when
 /// stopped.
 Derived derive(const v1::Lease& lease, const PreparedJob& job, std::string_view stored,
-               core::ExecutionContext* context = nullptr, unsigned threads = 1,
-               KnownRidges* known = nullptr);
+               core::ExecutionContext* context = nullptr, unsigned threads = 1, KnownRidges* known = nullptr);
 
 }  // namespace affskel::worker

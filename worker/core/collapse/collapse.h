@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/shortest_ways.h"
 

@@ -7,6 +7,7 @@
 
 #include "core/base/bucket_queue.h"
 #include "core/base/execution_context.h"
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 
 namespace affskel::core {

@@ -114,16 +114,6 @@ DualComplex::Cofaces DualComplex::cofaces(const Star& star) const {
   return found;
 }
 
-bool is_bare(const DualComplex& complex, DualComplex::Cell cell, const CellSet& cells) {
-  return !complex.any_coface(cell, [&](DualComplex::Cell coface) { return cells.has(coface); });
-}
-
-void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set) {
-  if (set.has(cell)) return;
-  set.insert(cell);
-  complex.for_each_face(cell, [&](DualComplex::Cell face) { insert_closed(complex, face, set); });
-}
-
 BettiNumbers betti_numbers(const DualComplex& complex, ExecutionContext* context) {
   using Cell = DualComplex::Cell;
   DisjointSets cubes(complex.cubes());

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/base/execution_context.h"
@@ -292,120 +291,6 @@ struct CellRank {
 inline CellRank rank_of(const DualComplex& complex, double level, DualComplex::Cell cell) {
   return {std::nearbyint(level * 0x1p38), -complex.off_centre(cell), cell};
 }
-
-/// A value for each cell of one dimension, lines or points: in arrays where its name is the usual one.
-template <class Value>
-class CellValues {
- public:
-  CellValues(const DualComplex& complex, int dimension, Value none)
-      : per_cube_(dimension == 0 ? 1 : 3), none_(none), usual_(per_cube_ * complex.cubes(), none) {}
-
-  Value& operator[](DualComplex::Cell cell) {
-    const std::uint32_t place = DualComplex::place_of(cell);
-    const std::size_t first = per_cube_ * DualComplex::cube_of(cell);
-    for (std::size_t n = 0; n < 3; ++n)
-      if (place == DualComplex::kUpperVertex - (per_cube_ == 1 ? 0 : DualComplex::kWeight[n]))
-        return usual_[first + n];
-    return others_.try_emplace(cell, none_).first->second;
-  }
-
- private:
-  std::size_t per_cube_;
-  Value none_;
-  std::vector<Value> usual_;
-  std::unordered_map<DualComplex::Cell, Value> others_;
-};
-
-/// A byte for each cell, by its own name, first 0.  A cube with neighbours at the lower ends of all axes has no more for
-/// its own than the cells at its upper ends: most groups of cubes have room for these alone.
-class CellBytes {
- public:
-  explicit CellBytes(const DualComplex& complex) {
-    std::uint32_t rows = 0;
-    for (std::uint32_t first = 0; first < complex.cubes(); first += kGroup) {
-      bool inner = true;
-      for (std::uint32_t cube = first; cube < std::min(first + kGroup, complex.cubes()); ++cube)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          inner = inner && complex.neighbour(cube, axis, 0) != kNone;
-      groups_.push_back({rows, inner ? kUpper : 27});
-      rows += groups_.back().places;
-    }
-    bytes_.assign(kGroup * std::size_t{rows}, 0);
-  }
-
-  /// Whether a place of a cube may be a cell's own.
-  bool may_own(std::uint32_t cube, std::uint32_t place) const {
-    return kSlot[place] < groups_[cube / kGroup].places;
-  }
-
-  std::uint8_t& operator[](DualComplex::Cell cell) { return bytes_[index(cell)]; }
-  std::uint8_t operator[](DualComplex::Cell cell) const { return bytes_[index(cell)]; }
-
- private:
-  static constexpr std::uint32_t kGroup = 8;  // cubes
-  static constexpr std::uint32_t kUpper = 8;  // places of a cube that are at no lower end
-
-  // Of each place: those at no lower end first.
-  static constexpr std::array<std::uint8_t, 27> kSlot = [] {
-    std::array<std::uint8_t, 27> result{};
-    std::uint8_t upper = 0, other = kUpper;
-    for (std::uint32_t place = 0; place < 27; ++place) {
-      const bool lower = place / 9 == 0 || place / 3 % 3 == 0 || place % 3 == 0;
-      result[place] = lower ? other++ : upper++;
-    }
-    return result;
-  }();
-
-  std::size_t index(DualComplex::Cell cell) const {
-    const std::uint32_t cube = DualComplex::cube_of(cell);
-    const Group& group = groups_[cube / kGroup];
-    return kGroup * std::size_t{group.first} + group.places * (cube % kGroup) +
-           kSlot[DualComplex::place_of(cell)];
-  }
-
-  struct Group {
-    std::uint32_t first = 0, places = 0;  // of a cube; `first` counts those of groups before
-  };
-  std::vector<Group> groups_;
-  std::vector<std::uint8_t> bytes_;
-};
-
-/// Cells of a complex.
-class CellSet {
- public:
-  explicit CellSet(const DualComplex& complex) : bits_(complex.cubes(), 0) {}
-
-  bool has(DualComplex::Cell cell) const {
-    return (bits_[DualComplex::cube_of(cell)] >> DualComplex::place_of(cell) & 1U) != 0;
-  }
-  void insert(DualComplex::Cell cell) {
-    bits_[DualComplex::cube_of(cell)] |= 1U << DualComplex::place_of(cell);
-  }
-
-  /// Leaves a cell out, or all cells named by a cube.
-  void erase(DualComplex::Cell cell) {
-    bits_[DualComplex::cube_of(cell)] &= ~(1U << DualComplex::place_of(cell));
-  }
-  void clear(std::uint32_t cube) { bits_[cube] = 0; }
-
-  /// Calls visit(cell) for every one, by cube, then by place.
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (std::uint32_t cube = 0; cube < bits_.size(); ++cube) {
-      for (std::uint32_t left = bits_[cube]; left != 0; left &= left - 1)
-        visit(DualComplex::name(cube, static_cast<std::uint32_t>(std::countr_zero(left))));
-    }
-  }
-
- private:
-  std::vector<std::uint32_t> bits_;  // per cube, by place
-};
-
-/// Whether none of a cell's cofaces is among some cells.
-bool is_bare(const DualComplex& complex, DualComplex::Cell cell, const CellSet& cells);
-
-/// Adds a cell and all cells in its boundary.
-void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set);
 
 /// The Betti numbers of the whole complex: cavities are the closed pieces of its boundary beyond one for each
 /// component (Alexander duality), holes follow from the Euler characteristic.

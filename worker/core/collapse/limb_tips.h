@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 
 namespace affskel::core {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 #include "core/mesh/edges.h"
 

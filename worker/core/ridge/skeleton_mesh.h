@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/base/execution_context.h"
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 #include "core/contour/edge_cells.h"
 #include "core/contour/sheet_mesh.h"

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
 #include "core/lattice/lattice.h"

@@ -1,4 +1,5 @@
 #include "core/collapse/dual_complex.h"
+#include "core/collapse/cell_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 #include "core/lattice/lattice.h"
 #include "core/mesh/mesh.h"
