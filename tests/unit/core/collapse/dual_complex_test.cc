@@ -1,5 +1,4 @@
 #include "core/collapse/dual_complex.h"
-#include "core/collapse/cell_sets.h"
 
 #include <gtest/gtest.h>
 
@@ -53,24 +52,6 @@ TEST(DualComplex, NamesCellsAlikeFromAllTheirCubes) {
         EXPECT_NE(std::find(back.begin(), back.end(), cell), back.end());
       });
     });
-  }
-}
-
-TEST(CellBytes, AreOneForEachCell) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const LatticeSolid solid(random_solid(seed), 0.15);
-    const DualComplex complex(solid.lattice);
-    CellBytes bytes(complex);
-    std::set<const std::uint8_t*> places;
-    std::size_t cells = 0;
-    complex.for_each_cell([&](Cell cell) {
-      EXPECT_TRUE(bytes.may_own(DualComplex::cube_of(cell), DualComplex::place_of(cell)));
-      EXPECT_EQ(bytes[cell], 0);
-      bytes[cell] = 1;
-      places.insert(&bytes[cell]);
-      ++cells;
-    });
-    EXPECT_EQ(places.size(), cells);
   }
 }
 

@@ -1,0 +1,50 @@
+#include "core/collapse/cell_sets.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+
+#include "core/collapse/lattice_solids.h"
+#include "core/test_solids.h"
+
+namespace affskel::core {
+namespace {
+
+TEST(CellBytes, AreOneForEachCell) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const LatticeSolid solid(random_solid(seed), 0.15);
+    const DualComplex complex(solid.lattice);
+    CellBytes bytes(complex);
+    std::set<const std::uint8_t*> places;
+    std::size_t cells = 0;
+    complex.for_each_cell([&](DualComplex::Cell cell) {
+      EXPECT_TRUE(bytes.may_own(DualComplex::cube_of(cell), DualComplex::place_of(cell)));
+      EXPECT_EQ(bytes[cell], 0);
+      bytes[cell] = 1;
+      places.insert(&bytes[cell]);
+      ++cells;
+    });
+    EXPECT_EQ(places.size(), cells);
+  }
+}
+
+TEST(CellSet, IsClosedWithTheBoundariesOfItsCells) {
+  const LatticeSolid solid(random_solid(1), 0.2);
+  const DualComplex complex(solid.lattice);
+  CellSet cells(complex);
+  const DualComplex::Cell cube = DualComplex::name(0, DualComplex::kCube);
+  insert_closed(complex, cube, cells);
+  std::size_t count = 0, bare = 0;
+  cells.for_each([&](DualComplex::Cell cell) {
+    ++count;
+    bare += is_bare(complex, cell, cells);
+    complex.for_each_face(cell, [&](DualComplex::Cell face) { EXPECT_TRUE(cells.has(face)); });
+  });
+  EXPECT_EQ(count, 27U);
+  EXPECT_EQ(bare, 1U) << "the cube alone bounds nothing";
+}
+
+}  // namespace
+}  // namespace affskel::core
