@@ -1,6 +1,7 @@
 """A client of one server."""
 from __future__ import annotations
 
+import contextlib
 import getpass
 import hashlib
 import numbers
@@ -302,5 +303,6 @@ class Client:
                     raise type(error)(message, file=error.file, line=error.line) from None
                 raise type(error)(message.replace(file, "the mesh")) from None  # the caller has no such file
         job = Job(self._session, document["id"], bool(document["existed"]), given.file)
-        job.status()
+        with contextlib.suppress(AffskelError):  # the job is there whatever becomes of this call
+            job.status()
         return job
