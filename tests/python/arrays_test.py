@@ -269,7 +269,8 @@ class Meshes(unittest.TestCase):
                 _checks.require_off(wrong)
         with self.assertRaisesRegex(affskel.BadInputError, "ends before"):
             _checks.require_off(b"OFF\n")
-        for right in (b"OFF\n1 2 3", b"# a cube\nOFF 8 6 0", b"COFF\n8 6 0", b"STCN4OFF BINARY\n\0\1"):
+        for right in (b"OFF\n1 2 3", b"# a cube\nOFF 8 6 0", b"COFF\n8 6 0", b"STCN4OFF BINARY\n\0\1",
+                      b"\xef\xbb\xbfOFF\n8 6 0", b"OFF\r# a cube\r8 6 0\r", b"OFF # a cube\r\n8 6 0\r\n"):
             _checks.require_off(right)
 
     def test_an_empty_eroded_surface_has_its_attributes(self):

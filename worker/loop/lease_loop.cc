@@ -124,7 +124,7 @@ class LeaseLoop {
   // this worker's knowledge, and it must not be given its task as a new one.
   std::optional<v1::Lease> ask(const std::string& present, std::chrono::milliseconds wait) {
     request_.set_preferred_job(job_.id());
-    request_.set_derived(!job_.id().empty() && known_.job == job_.id());
+    request_.set_derived(known_.basis && known_.job == job_.id());
     request_.clear_held();
     for (const std::string& token : {present, last_report_.token()}) {
       if (!token.empty()) request_.add_held(token);
@@ -188,7 +188,6 @@ class LeaseLoop {
       } else {
         forget();
         job_.clear_shelf();  // it may be memory that is short
-        known_ = {};
         // At once, the task would most likely fail again, and a job has few attempts.
         if (report_failure(lease.job().id(), lease.token(), problem)) pause(failures_.next());
       }
@@ -253,7 +252,8 @@ class LeaseLoop {
       const LeaseKeeper keeper(link_, lease, context);
       last_report_.wait();
     }
-    if (wire::find_derived_kind(lease.kind()) == nullptr) known_ = {};
+    const bool derives = wire::find_derived_kind(lease.kind()) != nullptr;
+    if (!derives || known_.job != lease.job().id() || known_.field != lease.field()) known_ = {};
     switch (lease.kind()) {
       case v1::TASK_KIND_PREPARE:
         return prepare(lease, context);
@@ -361,6 +361,7 @@ class LeaseLoop {
   void forget() {
     last_report_.drop();
     job_.forget();
+    known_ = {};
   }
 
   LeaseLoopOptions options_;

@@ -55,7 +55,7 @@ def require_counts(text: bytes, file: str = "") -> None:
 
 def require_off(text: bytes, file: str = "") -> None:
     """Raises BadInputError for bytes that do not begin as OFF text does, or end before the counts."""
-    words = re.sub(rb"#[^\n]*", b"", text).split(maxsplit=3)
+    words = re.sub(rb"#[^\r\n]*", b"", text.removeprefix(b"\xef\xbb\xbf")).split(maxsplit=3)
     if not words or re.fullmatch(rb"(ST)?C?N?4?n?OFF", words[0]) is None:
         raise BadInputError(f"the mesh does not begin with OFF, but with {text[:20]!r}; as bytes, OFF text is taken, and a "
                             "path as a text", file=file)

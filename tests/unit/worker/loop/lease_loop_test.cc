@@ -58,7 +58,7 @@ TEST_F(LoopTest, PreparesErodesAndDerives) {
   EXPECT_TRUE(merged(prepared_, server_.reports()) == finished_field(prepared_));
 }
 
-// Until a task comes that derives nothing.
+// Until a task comes that looks at something else.
 TEST_F(LoopTest, TellsWhatItHasDerivedOf) {
   server_.set_input(v1::ARTIFACT_KIND_FIELD, finished_field(prepared_));
   v1::Lease sheet = derive_lease(prepared_, "a", v1::TASK_KIND_SURFACE);
@@ -66,14 +66,16 @@ TEST_F(LoopTest, TellsWhatItHasDerivedOf) {
   offer(sheet);
   sheet.set_token("b");
   offer(sheet);
-  offer(erode_lease(prepared_, "c", 0, 256));
+  v1::Lease chords = derive_lease(prepared_, "c", v1::TASK_KIND_SURFACE);  // which look at no ridge
+  chords.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_CHORDS);
+  offer(chords);
   EXPECT_EQ(run(), 0);
   std::vector<bool> derived;
   for (const v1::LeaseTaskRequest& request : server_.lease_requests()) derived.push_back(request.derived());
   EXPECT_EQ(derived.front(), false);
   EXPECT_EQ(std::count(derived.begin(), derived.end(), true), 2);
   EXPECT_EQ(derived.back(), false);
-  ASSERT_EQ(server_.completions().size(), 2U);
+  ASSERT_EQ(server_.completions().size(), 3U);
   EXPECT_EQ(server_.completions()[0].data, server_.completions()[1].data);
 }
 
