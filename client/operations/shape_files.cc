@@ -17,6 +17,7 @@
 #include "client/text/skeleton_text.h"
 #include "core/base/error.h"
 #include "core/solid/solid.h"
+#include "core/solid/turn_as_in.h"
 #include "wire/params.h"
 
 namespace affskel::client {

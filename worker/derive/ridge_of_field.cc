@@ -47,7 +47,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   core::BettiNumbers kept = sheet.lattice;
   kept.components -= sheet.fragments;
   const core::BettiNumbers of_solid{message.solid_components(), solid, message.solid_cavities()};
-  const bool meet = kept != of_solid && core::surfaces_meet(field_.job().solid(), field_.context());
+  const bool meet = kept != of_solid && field_.job().solid().surfaces_meet;
   set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid, meet), message);
   if (!message.advice().empty() || cut) return;
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -77,6 +78,16 @@ Mesh shaken(Mesh mesh, double noise, std::uint64_t seed) {
   const Vec3 w = cross(u, v);
   for (Vec3& p : mesh.points) p = (p.x * u + p.y * v) + (p.z * w + noise * draw());
   return mesh;
+}
+
+Mesh make_coil() {
+  constexpr double kTurn = 2 * std::numbers::pi, kRise = 0.3;
+  Mesh mesh = make_box(1.5 * kTurn, 1, 1, 24);
+  for (Vec3& p : mesh.points) {
+    const double radius = 3 + p.y;
+    p = {radius * std::cos(p.x), radius * std::sin(p.x), p.z + kRise * p.x / kTurn};
+  }
+  return reversed(std::move(mesh));
 }
 
 Mesh hollow_ball() {

@@ -19,6 +19,10 @@ Mesh joined(Mesh a, const Mesh& b);
 /// they overlap, and the upper one is narrower by 0.01 on every side.
 Mesh overlapping_boxes(double a, double b, double c);
 
+/// One surface that overlaps itself: a square rod, 1 thick, bent to a coil of one and a half turns about the z axis, each 0.3
+/// above the last, 3 to 4 from it.
+Mesh make_coil();
+
 /// The mesh turned about an axis in no special position, then every coordinate moved by up to +-noise.
 Mesh shaken(Mesh mesh, double noise, std::uint64_t seed);
 

@@ -15,6 +15,7 @@
 #include "core/repair/wrap_solid.h"
 #include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
+#include "core/solid/turn_as_in.h"
 
 namespace affskel::core {
 namespace {

@@ -334,6 +334,7 @@ class SolidBuilder {
     StopCheck stop(options_.context);
     for (const auto& [i, j] : pairs) {
       stop.did(kOperationsPerPair);
+      if (solid_.triangle_shell[i] != solid_.triangle_shell[j]) solid_.surfaces_meet = true;
       if (pass_through(solid_.mesh, i, j)) solid_.crossings.emplace_back(i, j);
     }
     if (const auto copies = copied_shells(solid_); !copies.empty()) {
@@ -363,14 +364,6 @@ class SolidBuilder {
 
 }  // namespace
 
-bool surfaces_meet(const Solid& solid, ExecutionContext* context) {
-  if (!solid.self_intersecting || solid.shells.size() == 1) return false;
-  const auto pairs = self_intersections(solid.mesh, {32 * solid.mesh.triangles.size(), 1, context});
-  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
-    return solid.triangle_shell[pair.first] != solid.triangle_shell[pair.second];
-  });
-}
-
 Solid make_solid(const Mesh& mesh, const SolidOptions& options, const std::vector<std::uint32_t>& vertex_line,
                  const std::vector<std::uint32_t>& triangle_line) {
   std::vector<std::uint32_t> all(mesh.triangles.size());
@@ -382,25 +375,6 @@ DisjointSets joined_solids(const Solid& solid) {
   DisjointSets sets(solid.solid_volume.size());
   for (const auto& [a, b] : solid.crossings) sets.unite(solid.solid_of(a), solid.solid_of(b));
   return sets;
-}
-
-bool turn_as_in(const Solid& solid, Mesh& mesh) {
-  if (solid.mesh.triangles.size() != mesh.triangles.size()) return false;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    // By the places of corners, for a triangle may have no area, and vertices other numbers there.
-    std::array<Vec3, 3> there;
-    for (std::size_t k = 0; k < 3; ++k)
-      there[k] = solid.centre + solid.scale() * solid.mesh.points[solid.mesh.triangles[t][k]];
-    const auto [a, b, c] = mesh.triangles[t];
-    const auto away = [&](std::size_t k, std::uint32_t from) {
-      return norm(there[k % 3] - mesh.points[from]);
-    };
-    std::size_t first = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (away(k, a) < away(first, a)) first = k;
-    if (away(first + 1, c) < away(first + 1, b)) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
-  }
-  return true;
 }
 
 }  // namespace affskel::core

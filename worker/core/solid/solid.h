@@ -30,6 +30,11 @@ struct MeshNote {
   std::string message;  ///< counts and the first place
 };
 
+/// As messages and JSON name it: "repaired" or "warning".
+constexpr const char* severity_word(MeshNote::Severity severity) {
+  return severity == MeshNote::Severity::kWarning ? "warning" : "repaired";
+}
+
 /// One closed surface of a solid's boundary.
 struct Shell {
   std::uint64_t triangles = 0;
@@ -55,6 +60,7 @@ struct Solid {
   std::vector<double> solid_volume;           ///< per connected solid, mesh units cubed, > 0
   double volume = 0;                          ///< v0: all solids, mesh units cubed
   bool self_intersecting = false;             ///< triangles cross or touch that are not neighbours
+  bool surfaces_meet = false;                 ///< such triangles are of different shells
   /// Pairs of triangles that pass through each other, (i, j) with i < j, ascending.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
   std::vector<MeshNote> notes;
@@ -68,10 +74,6 @@ struct Solid {
   std::uint32_t solid_of(std::uint32_t triangle) const { return shells[triangle_shell[triangle]].solid; }
 };
 
-/// Whether triangles of different surfaces cross or touch each other.  Looks for them again.
-/// @throws CoreError kCancelled when the context asks to stop.
-bool surfaces_meet(const Solid& solid, ExecutionContext* context = nullptr);
-
 /// The connected solids, those joined whose surfaces pass through each other.
 DisjointSets joined_solids(const Solid& solid);
 
@@ -84,10 +86,5 @@ DisjointSets joined_solids(const Solid& solid);
 Solid make_solid(const Mesh& mesh, const SolidOptions& options = {},
                  const std::vector<std::uint32_t>& vertex_line = {},
                  const std::vector<std::uint32_t>& triangle_line = {});
-
-/// Turns the triangles of a mesh as its solid has them: those of solids outward, of cavities inward.
-/// @param solid make_solid(mesh).
-/// @return false, and nothing is turned, where the solid has not all of the mesh's triangles.
-bool turn_as_in(const Solid& solid, Mesh& mesh);
 
 }  // namespace affskel::core

@@ -170,9 +170,6 @@ TEST(CoarseLatticeAdvice, NamesWhatDiffersAndMorePoints) {
 }
 
 TEST(CoarseLatticeAdvice, AdvisesNoPointsWhereSurfacesCross) {
-  const Mesh box = make_box(2, 2, 2);
-  EXPECT_TRUE(surfaces_meet(make_solid(joined(box, moved(box, {1, 1, 1})))));
-  EXPECT_FALSE(surfaces_meet(make_solid(joined(box, moved(box, {3, 1, 1})))));
   NormalBlock block({10, 10, 10}, 0.5);
   const Advice advice = coarse_lattice_advice(block.lattice, {1, 0, 0}, {2, 0, 0}, true);
   EXPECT_TRUE(says(advice, "cross or touch each other, and are counted each by itself")) << advice.text;

@@ -237,6 +237,16 @@ TEST(MakeSolid, WarnsOfSurfacesThatCrossThemselves) {
   EXPECT_NEAR(solid.volume, 2, 1e-12);
 }
 
+TEST(MakeSolid, TellsWhetherDifferentSurfacesMeet) {
+  const Mesh box = make_box(2, 2, 2);
+  EXPECT_TRUE(make_solid(joined(box, moved(box, {1, 1, 1}))).surfaces_meet);
+  EXPECT_TRUE(make_solid(joined(box, moved(box, {2, 1, 1}))).surfaces_meet) << "they touch";
+  EXPECT_FALSE(make_solid(joined(box, moved(box, {3, 1, 1}))).surfaces_meet);
+  const Solid coil = make_solid(make_coil());
+  EXPECT_TRUE(coil.self_intersecting);
+  EXPECT_FALSE(coil.surfaces_meet) << "it is one surface";
+}
+
 // Four triangles without volume.
 Mesh flat_speck() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
