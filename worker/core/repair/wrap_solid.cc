@@ -89,8 +89,8 @@ class CavityWrapper {
   }
 
   void add_to(SolidWrap& wrap) {
-    if (std::none_of(crosses_.begin(), crosses_.end(), [](bool one) { return one; }))
-      wrap.volume = solid_.volume;
+    // Of surfaces that cross, be it themselves, overlaps count twice, and what touches may lie on another: not told apart.
+    if (!solid_.self_intersecting) wrap.volume = solid_.volume;
     std::vector<std::uint32_t> outermost_first(count_);
     std::iota(outermost_first.begin(), outermost_first.end(), 0U);
     std::stable_sort(outermost_first.begin(), outermost_first.end(),

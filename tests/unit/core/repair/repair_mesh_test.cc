@@ -310,6 +310,15 @@ TEST(RepairMesh, AWrapTellsCavitiesThatItCloses) {
   EXPECT_EQ(step(beside, "wrap-volume"), nullptr);
 }
 
+TEST(RepairMesh, AWrapOfWhatIsCountedTwiceIsNotComparedWithIt) {
+  const Mesh box = make_box(2, 2, 2);
+  for (const Mesh& mesh : {make_coil(), joined(box, moved(box, {1, 1, 1})), joined(box, box)}) {
+    const RepairedMesh repaired = repair_mesh(mesh, {.kind = RepairKind::kWrap, .alpha = 0.2});
+    EXPECT_LT(repaired.volume, 0.97 * volume_of(mesh));
+    EXPECT_EQ(step(repaired, "wrap-volume"), nullptr) << step(repaired, "wrap-volume")->message;
+  }
+}
+
 // A hole of many edges, or a wrap, takes seconds by itself.
 TEST(RepairMesh, StopsWithinAHole) {
   const Mesh open = cut(make_sphere(10, 20'480), {0, 0, 10}, 2);
