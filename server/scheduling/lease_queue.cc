@@ -129,6 +129,7 @@ grpc::ServerUnaryReactor* LeaseQueue::lease(grpc::CallbackServerContext* context
     check_worker(request->worker());
   });
   if (status.ok()) {
+    // The worker is seen with its call in line: who finds it in the list of workers may count on its being served.
     const base::MutexLock lock(mutex_);
     registry_.seen(request->worker(), std::min(request->wait_ms(), kMaxWaitMs));
     if (stopping_) {

@@ -330,9 +330,13 @@ std::vector<Store::Holder> Store::supervised_holders() {
 }
 
 std::set<std::string> Store::requested_jobs() {
+  // Asked for whenever workers wait, and only to tell who of them comes first: of requests for more jobs than these,
+  // whoever comes finds one.
   return read([](Database& db) {
+    constexpr std::int64_t kMostJobs = 16;
     Statement row = db.query(
-        "SELECT job_id FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = 1 LIMIT 16");
+        "SELECT DISTINCT job_id FROM tasks WHERE state = 'pending' AND parked = 0 AND on_request = 1 LIMIT ?",
+        kMostJobs);
     std::set<std::string> jobs;
     while (row.step()) jobs.insert(row.text(0));
     return jobs;
