@@ -41,9 +41,7 @@ void run_repair(Context& context, const RepairOptions& options) {
   });
   const Repair done = context.within_budget(Budget::Work::kRepair, options.file,
                                             [&] { return repaired(context, mesh, options.file, choice); });
-  Notices warnings;
-  for (const core::RepairStep& step : done.steps)
-    if (is_warning(step)) warnings.push_back(warning(step.code, step.message, options.file));
+  Notices warnings = repair_warnings(done.steps, options.file);
   append(warnings, context.within_budget(Budget::Work::kRepair, options.file,
                                          [&] { return solid_warnings(done.mesh, options.file); }));
   ShapeFile shape;

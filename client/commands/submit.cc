@@ -89,20 +89,20 @@ Notices check_mesh(const InputFile& input, const core::Solid& solid, const std::
 struct SubmittedSolid {
   core::Solid solid;
   std::optional<MeshSource> source;  // of which its mesh came by a repair
+  Notices said;                      // what is wrong with that
 };
 
 // What is mended beyond what workers mend is another mesh.
-std::optional<MeshSource> replaced(Context& context, const std::string& file, const RepairChoice& choice,
-                                   InputFile& input) {
+void replace(Context& context, const std::string& file, const RepairChoice& choice, InputFile& input,
+             SubmittedSolid& found) {
   Repair done = repaired(context, input.off.mesh, file, choice);
-  if (done.steps.empty()) return std::nullopt;
-  Notices notices;
+  if (done.steps.empty()) return;
   for (const core::RepairStep& step : done.steps)
-    notices.push_back(is_warning(step)
-                          ? warning(step.code, step.message, input.path)
-                          : note(step.code, "repaired before it was sent: " + step.message, input.path));
-  say(context.console(), notices);
-  return replace_mesh(input, std::move(done));
+    if (!is_warning(step))
+      say(context.console(), note(step.code, "repaired before it was sent: " + step.message, input.path));
+  found.said = repair_warnings(done.steps, input.path);
+  say(context.console(), found.said);
+  found.source = replace_mesh(input, std::move(done));
 }
 
 // Unasked, only a mesh that bounds no solid is replaced: what workers mend is sent as it is.
@@ -110,15 +110,14 @@ SubmittedSolid solid_of(Context& context, const std::string& file, const RepairC
                         InputFile& input) {
   using Kind = RepairChoice::Kind;
   SubmittedSolid found;
-  if (repair.kind == Kind::kFill || repair.kind == Kind::kWrap)
-    found.source = replaced(context, file, repair, input);
+  if (repair.kind == Kind::kFill || repair.kind == Kind::kWrap) replace(context, file, repair, input, found);
   try {
     found.solid = check_solid(input, repair.kind != Kind::kNone);
     return found;
   } catch (const ClientError& error) {
     if (repair.kind != Kind::kAuto || error.exit_code() != ExitCode::kBadInput) throw;
   }
-  found.source = replaced(context, file, repair, input);
+  replace(context, file, repair, input, found);
   found.solid = check_solid(input, true);
   return found;
 }
@@ -140,11 +139,11 @@ void run_submit(Context& context, const SubmitOptions& options) {
   InputFile input = context.within_budget(Budget::Work::kReading, options.file,
                                           [&] { return read_named_input(options.file, options.reading); });
   say(console, conversion_notices(input));
-  const SubmittedSolid found = context.within_budget(
+  SubmittedSolid found = context.within_budget(
       Budget::Work::kRepair, options.file, [&] { return solid_of(context, options.file, repair, input); });
   Submission asked = options.asked;
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
-  const Notices said = check_mesh(input, found.solid, options.spacing, asked, console);
+  append(found.said, check_mesh(input, found.solid, options.spacing, asked, console));
   say(console, direction_notices(found.solid, found.source ? &*found.source : nullptr, asked));
   if (!options.output_dir.empty()) prepare_output(options.output_dir, job_name(input.path));
   const Submitted submitted =
@@ -161,7 +160,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
     document["files"] = paths_of(fetch_results(context, job, options.output_dir, job_name(input.path)));
   }
   print_of(job, [&] { console.document(document); });
-  if (wait) show_end(context, job, said);
+  if (wait) show_end(context, job, found.said);
 }
 
 void add_following_options(CLI::App* command, SubmitOptions& o) {

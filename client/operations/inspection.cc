@@ -68,9 +68,8 @@ ordered_json notes_json(const core::Solid& solid, const core::OffMesh& off) {
   if (const std::string text = uneven_text(off, solid.volume); !text.empty())
     notes.push_back({{"severity", "warning"}, {"code", "uneven-polygons"}, {"message", text}});
   for (const core::MeshNote& note : solid.notes) {
-    const bool repaired = note.severity == core::MeshNote::Severity::kRepaired;
     notes.push_back(
-        {{"severity", repaired ? "repaired" : "warning"}, {"code", note.code}, {"message", note.message}});
+        {{"severity", core::severity_word(note.severity)}, {"code", note.code}, {"message", note.message}});
   }
   return notes;
 }

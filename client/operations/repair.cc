@@ -54,8 +54,11 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
   return done;
 }
 
-bool is_warning(const core::RepairStep& step) {
-  return step.code == "closed-cavities" || step.code == "wrap-volume";
+Notices repair_warnings(const std::vector<core::RepairStep>& steps, const std::string& file) {
+  Notices warnings;
+  for (const core::RepairStep& step : steps)
+    if (is_warning(step)) warnings.push_back(warning(step.code, step.message, file));
+  return warnings;
 }
 
 Notices solid_warnings(const core::Mesh& mesh, const std::string& file) {

@@ -39,8 +39,8 @@ struct Repair {
 Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoice& choice,
               core::ExecutionContext* context = nullptr);
 
-/// Whether what a repair did is likely not as its user wants it.
-bool is_warning(const core::RepairStep& step);
+/// What of a repair is likely not as its user wants it.
+Notices repair_warnings(const std::vector<core::RepairStep>& steps, const std::string& file);
 
 /// What is wrong with a mesh that bounds a solid, and no repair mends, such as surfaces that cross each other.
 Notices solid_warnings(const core::Mesh& mesh, const std::string& file);

@@ -72,6 +72,7 @@ v1::MeshRepair repair_of(const MeshSource& source) {
     told.set_code(step.code);
     told.set_count(step.count);
     told.set_message(protocol_text(step.message, kMaxStepMessage));
+    told.set_severity(core::severity_word(step.severity));
   }
   return repair;
 }

@@ -47,6 +47,11 @@ std::string coloured_line(const std::string& key, const std::string& value, cons
   return coloured(line, colour) + "\n";
 }
 
+// What was found in the mesh or done to it; warnings stand out.
+std::string noted_line(const std::string& severity, const std::string& what, bool colour) {
+  return coloured_line(severity, what, colour && severity == "warning" ? "\033[33m" : "");
+}
+
 // By columns, as the message holds it.
 bool is_identity(const google::protobuf::RepeatedField<double>& frame) {
   for (int i = 0; i < 9; ++i) {
@@ -80,10 +85,8 @@ std::string prepared_details(const v1::PreparedSummary& p, bool colour) {
     size = std::max(size, p.bbox_max(a) - p.bbox_min(a));
   text += key_line("bbox_min", place_in_box({p.bbox_min().begin(), p.bbox_min().end()}, size));
   text += key_line("bbox_max", place_in_box({p.bbox_max().begin(), p.bbox_max().end()}, size));
-  for (const v1::MeshNote& note : p.notes()) {
-    const bool warns = colour && note.severity() == "warning";
-    text += coloured_line(note.severity(), note.code() + ": " + note.message(), warns ? "\033[33m" : "");
-  }
+  for (const v1::MeshNote& note : p.notes())
+    text += noted_line(note.severity(), note.code() + ": " + note.message(), colour);
   return text;
 }
 
@@ -239,7 +242,7 @@ std::string job_details(const v1::Job& job, bool colour) {
   text += asked_for(job);
   text += key_line("repair", job.params().repair() ? "auto" : "none");
   for (const v1::RepairStep& step : job.repair().steps())
-    text += key_line("repaired", step.code() + ": " + step.message());
+    text += noted_line(severity_word(step), step.code() + ": " + step.message(), colour);
   if (job.has_repair()) text += key_line("source_sha256", job.repair().source_sha256());
   text += key_line("priority", std::to_string(job.priority()));
   text += key_line("mesh_bytes", std::to_string(job.mesh_bytes()));

@@ -6,6 +6,7 @@
 
 #include "base/number_text.h"
 #include "client/text/time_text.h"
+#include "client/text/words.h"
 #include "wire/params.h"
 
 namespace affskel::client {
@@ -28,6 +29,8 @@ std::string file_stem(const std::string& name) {
 
 Notices job_warnings(const v1::Job& job) {
   Notices warnings;
+  for (const v1::RepairStep& step : job.repair().steps())
+    if (severity_word(step) == "warning") warnings.push_back(warning(step.code(), step.message()));
   for (const v1::MeshNote& note : job.prepared().notes()) {
     if (note.severity() == "warning") warnings.push_back(warning(note.code(), note.message()));
   }

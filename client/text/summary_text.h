@@ -15,8 +15,8 @@ inline constexpr std::uint64_t kCoarseLattice = 2000;
 /// option.
 std::string file_stem(const std::string& name);
 
-/// What to know of a done job whose skeleton has points: warnings of the mesh and of its directions, a coarse
-/// lattice, a skeleton in more pieces than the solid.
+/// What to know of a done job whose skeleton has points: warnings of the mesh's repair, of the mesh and of its
+/// directions, a coarse lattice, a skeleton in more pieces than the solid.
 Notices job_warnings(const v1::Job& job);
 
 /// Of these the last two, for a skeleton of that quality.

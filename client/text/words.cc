@@ -45,6 +45,10 @@ std::string operator_word(v1::Operator which) {
   return word_or_unknown(which == v1::OPERATOR_UNSPECIFIED ? wire::kDefaultOperator : which);
 }
 
+std::string severity_word(const v1::RepairStep& step) {
+  return step.severity() == "warning" ? "warning" : "repaired";
+}
+
 std::string part_kind_word(v1::PartKind kind) {
   return word_or_unknown(kind);
 }

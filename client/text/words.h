@@ -21,6 +21,9 @@ std::string minimum_word(v1::Minimum minimum);
 /// "zucker-hummel", "intermediate", ...; the default one when none is specified, "unknown" for anything else.
 std::string operator_word(v1::Operator which);
 
+/// As what a step of a repair is told: "warning", else "repaired", also where its client does not say.
+std::string severity_word(const v1::RepairStep& step);
+
 /// "limb", "line", "link", "loop" or "point"; "unknown" for anything else.
 std::string part_kind_word(v1::PartKind kind);
 

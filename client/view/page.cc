@@ -217,7 +217,7 @@ ordered_json cell_of(const ViewGrid& grid, const Scale& scale) {
 ordered_json warnings_of(const ViewModel& model) {
   ordered_json warnings = ordered_json::array();
   for (const v1::RepairStep& step : model.job.repair().steps())
-    warnings.push_back("repaired: " + step.message());
+    warnings.push_back(severity_word(step) == "warning" ? step.message() : "repaired: " + step.message());
   for (const v1::MeshNote& note : model.job.prepared().notes()) warnings.push_back(note.message());
   if (model.job.id().empty()) return warnings;
   for (const Notice& warning : skeleton_warnings(model.job.prepared(), model.quality))

@@ -168,7 +168,7 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
     if (!call.request.parameter("repair").empty()) {
       source = replace_by_repaired(call, name, input, &context);
       for (const core::RepairStep& step : source.steps)
-        steps.push_back({{"severity", is_warning(step) ? "warning" : "repaired"},
+        steps.push_back({{"severity", core::severity_word(step.severity)},
                          {"code", step.code},
                          {"message", step.message}});
     }

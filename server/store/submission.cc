@@ -74,6 +74,9 @@ void check_repair(const v1::MeshRepair& repair, std::uint64_t max_mesh_bytes) {
     if (step.code().empty()) refuse_submission("a step of the repair has no code");
     check_size("a step's code", step.code(), kMaxStepCodeBytes);
     check_size("a step's message", step.message(), kMaxStepMessageBytes);
+    if (step.severity() != "" && step.severity() != "repaired" && step.severity() != "warning")
+      refuse_submission("a step's severity is \"repaired\" or \"warning\", not " +
+                        base::quoted(step.severity()));
   }
 }
 

@@ -12,6 +12,7 @@ import {
   isRemoved,
   operatorOf,
   progress,
+  repairNotes,
   wording,
 } from '../../client/web/page/text.js';
 
@@ -24,6 +25,20 @@ session.words = {
   frames: {},
 };
 session.usual = { operator: 'ridge', frame: 'axis' };
+
+test('a repair is told with its warnings as warnings', () => {
+  const steps = [
+    { code: 'wrapped', severity: 'repaired', message: 'wrapped by 8 triangles' },
+    { code: 'closed-cavities', severity: 'warning', message: '1 cavity closed' },
+    { code: 'filled-holes', severity: '', message: '1 hole filled' }, // by an older client
+  ];
+  assert.deepEqual(repairNotes({ ...kJob, repair: { steps } }), [
+    { severity: 'repaired', message: 'repaired before it was sent: wrapped by 8 triangles' },
+    { severity: 'warning', message: '1 cavity closed' },
+    { severity: 'repaired', message: 'repaired before it was sent: 1 hole filled' },
+  ]);
+  assert.deepEqual(repairNotes(kJob), []);
+});
 
 test('words are those of the service, and of a later server as they are', () => {
   assert.equal(wording('states', 'queued'), 'in line');

@@ -458,6 +458,17 @@ class SameMesh(unittest.TestCase):
         job = client.submit((points, faces), points=500, repair="fill=7").wait()
         self.assertAlmostEqual(job.status().volume, 8, places=9)
 
+    def test_warnings_of_a_repair_are_warnings_of_its_job(self):
+        points = [(s * x, s * y, s * z) for s in (10, 6) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        box = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+               (1, 5, 7), (1, 7, 3)]
+        cavity = [(8 + a, 8 + c, 8 + b) for a, b, c in box]
+        job = client.submit((points, box + cavity), points=500, repair="wrap=7").wait()
+        notes = {note.code: note.severity for note in job.status().notes}
+        self.assertEqual((notes["wrapped"], notes["closed-cavities"]), ("repaired", "warning"))
+        self.assertTrue(any(warning.startswith("1 cavity closed") for warning in job.status().warnings))
+        self.assertIn("warning: 1 cavity closed", directory.client_notes("watch", job.id))
+
     def test_a_small_hole_is_filled_unasked_and_the_mesh_kept_as_it_came(self):
         rows = (directory / "body.off").read_text().rstrip("\n").split("\n")
         head = next(n for n, row in enumerate(rows) if len(row.split()) == 3 and n > 0)

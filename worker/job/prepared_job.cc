@@ -142,7 +142,7 @@ v1::PreparedSummary PreparedJob::summary() const {
   }
   for (const core::MeshNote& found : solid_.notes) {
     v1::MeshNote* note = summary.add_notes();
-    note->set_severity(found.severity == core::MeshNote::Severity::kRepaired ? "repaired" : "warning");
+    note->set_severity(core::severity_word(found.severity));
     note->set_code(found.code);
     note->set_message(found.message);
   }

@@ -66,7 +66,10 @@ RepairChoice chosen_repair(const std::string& text) {
 nlohmann::ordered_json steps_json(const std::vector<core::RepairStep>& steps) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const core::RepairStep& step : steps)
-    list.push_back({{"code", step.code}, {"count", step.count}, {"message", step.message}});
+    list.push_back({{"severity", core::severity_word(step.severity)},
+                    {"code", step.code},
+                    {"count", step.count},
+                    {"message", step.message}});
   return list;
 }
 

@@ -38,8 +38,8 @@ class Status:
         skeleton_points: of the job's own skeleton, when done.
         reason: why it failed, why it does not run, or why its skeleton is empty.
         notes: what was found in the mesh, what was repaired before it was submitted first.
-        warnings: what to know of a job that is done, in the words of affskel-client: of its mesh, its lattice and its
-            skeleton.
+        warnings: what to know of a job that is done, in the words of affskel-client: of its mesh and its repair, its
+            lattice and its skeleton.
         quality: the report of its skeleton, when done, by the names of SkeletonQuality in the contract; else empty.
         remaining: seconds until all directions are done, an estimate; None = not known, or done.
         created, started, finished: UTC; None = not yet.
@@ -101,7 +101,7 @@ def _warnings(job: types.Job) -> Iterator[str]:
     quality, prepared = job.quality, job.prepared
     if quality.advice:
         yield f"the skeleton: {quality.advice}"
-    yield from (note.message for note in prepared.notes if note.severity == "warning")
+    yield from (note.message for note in (*job.repair.steps, *prepared.notes) if note.severity == "warning")
     if job.skeleton_points == 0:
         return
     if prepared.points < COARSE_LATTICE:
@@ -121,7 +121,7 @@ def status_of(job: types.Job) -> Status:
         directions_done=job.directions_done, directions_total=job.directions_total,
         refine_round=job.refine_round, refined_points=job.refined_points, points=prepared.points,
         spacing=prepared.spacing, volume=prepared.volume, skeleton_points=job.skeleton_points, reason=reason,
-        notes=(*(Note("repaired", step.code, step.message) for step in job.repair.steps),
+        notes=(*(Note(step.severity or "repaired", step.code, step.message) for step in job.repair.steps),
                *(Note(note.severity, note.code, note.message) for note in prepared.notes)),
         warnings=tuple(_warnings(job)), quality=plain(job.quality) if job.HasField("quality") else {},
         remaining=job.remaining_ms / 1000 if job.HasField("remaining_ms") else None,

@@ -7,7 +7,7 @@ import { showProgress } from './jobs.js';
 import { count, counted, measure, moment, took } from './numbers.js';
 import { History } from './history.js';
 import { session } from './session.js';
-import { activity, expiry, isActive, isRemoved, operatorOf, progress, wording } from './text.js';
+import { activity, expiry, isActive, isRemoved, operatorOf, progress, repairNotes, wording } from './text.js';
 
 // What of a job decides which facts, notes and buttons there are.
 const kShown = ['state', 'prepared', 'quality', 'cancel_requested', 'pinned', 'expires_ms', 'removed_ms'];
@@ -168,9 +168,8 @@ export class JobView {
     const removal = expiry(job);
     const warning = (message) => h('li', { class: 'warning' }, message);
     // The warnings of a done job are those of its mesh, too.
-    const notes = (job.prepared?.notes || []).filter((note) => !job.warnings || note.severity !== 'warning');
+    const notes = [...repairNotes(job), ...(job.prepared?.notes || [])].filter((note) => !job.warnings || note.severity !== 'warning');
     this.notes.replaceChildren(
-      ...(job.repair?.steps || []).map((step) => h('li', { class: 'repaired' }, `repaired before it was sent: ${step.message}`)),
       ...notes.map((note) => h('li', { class: note.severity }, note.message)),
       ...(job.warnings || []).map((one) => warning(one.message)),
       ...(removal ? [warning(removal)] : []),

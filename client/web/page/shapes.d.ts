@@ -47,7 +47,7 @@ interface Job {
   params: { sampling?: { spacing?: number; target_points?: number }; directions: string; frame: string | null; minimum?: string | null };
   skeleton: { operator: string | null; threshold?: number };
   prepared?: { triangles: number; points: number; spacing: number; volume: number; solids: number; notes?: Note[] };
-  repair?: { steps: { code: string; message: string }[] }; // of the mesh, before it was submitted
+  repair?: { steps: Note[] }; // of the mesh, before it was submitted
   quality?: { components: number };
   warnings?: { code: string; message: string }[]; // of a done job
   error?: { message: string; line: number };

@@ -77,6 +77,14 @@ export const isRemoved = (job) => job.state === 'done' && job.removed_ms > 0;
  */
 export const expiry = (job) => (job.expires_ms > 0 ? `${job.removed_ms > 0 || !job.prepared ? 'The job and its mesh' : 'Its results'} will be removed on ${moment(job.expires_ms)}, unless it is kept.` : '');
 
+/**
+ * What was done to a job's mesh before it was submitted.
+ * @param {Job} job
+ * @returns {Note[]}
+ */
+export const repairNotes = (job) =>
+  (job.repair?.steps || []).map(({ severity, message }) => (severity === 'warning' ? { severity, message } : { severity: 'repaired', message: `repaired before it was sent: ${message}` }));
+
 /** @param {Job} job */
 function skeleton(job) {
   if (job.skeleton_points === 0) return 'the skeleton is empty';

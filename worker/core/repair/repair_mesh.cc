@@ -272,7 +272,8 @@ void tell_wrap(const AlphaWrapOptions& wrap, SolidWrap wrapped, RepairedMesh& re
     result.steps.push_back({"closed-cavities", wrapped.closed,
                             base::counted(wrapped.closed, "cavity", "cavities") +
                                 " closed, and what lies in them swallowed: too narrow for a ball of radius " +
-                                short_text(wrap.alpha) + ", or with walls that cross another surface"});
+                                short_text(wrap.alpha) + ", or with walls that cross another surface",
+                            MeshNote::Severity::kWarning});
   }
   result.wrapped_volume = wrapped.volume;
 }
@@ -359,7 +360,8 @@ void tell_wrapped_volume(RepairedMesh& result) {
   result.steps.push_back({"wrap-volume", 1,
                           "the wrap holds " + short_text(result.volume) + ", what it wraps " +
                               short_text(before) + ": " + base::rounded(100 * std::fabs(more), 3) + " % " +
-                              (more > 0 ? "more" : "less")});
+                              (more > 0 ? "more" : "less"),
+                          MeshNote::Severity::kWarning});
 }
 
 // Powers of lengths must not overflow, nor vanish.

@@ -6,6 +6,7 @@
 
 #include "core/base/execution_context.h"
 #include "core/mesh/mesh.h"
+#include "core/solid/solid.h"
 
 namespace affskel::core {
 
@@ -32,7 +33,14 @@ struct RepairStep {
   std::string code;
   std::uint64_t count = 0;
   std::string message;  ///< with counts, lengths and places
+  MeshNote::Severity severity =
+      MeshNote::Severity::kRepaired;  ///< a warning: likely not as its user wants it
 };
+
+/// Whether what was done is likely not as its user wants it.
+inline bool is_warning(const RepairStep& step) {
+  return step.severity == MeshNote::Severity::kWarning;
+}
 
 struct RepairedMesh {
   Mesh mesh;  ///< bounds a solid, see make_solid, or `left` says why not

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/files/read/input_file.h"
+#include "client/text/key_line.h"
 #include "client_fixture.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
@@ -360,7 +361,19 @@ TEST_F(ClientTest, CavitiesThatAWrapClosesAreWarnedOf) {
   EXPECT_EQ(warnings[1].at("code"), "wrap-volume");
   const Outcome submitted = run({"submit", dir_ / "hollow.off", "--repair", "wrap=700"});
   ASSERT_EQ(submitted.exit_code, 0) << submitted.err;
+  EXPECT_NE(submitted.err.find("warning: "), std::string::npos) << submitted.err;
   EXPECT_NE(submitted.err.find("1 cavity closed"), std::string::npos) << submitted.err;
+  const v1::MeshRepair& told = service_.submitted.repair();
+  ASSERT_EQ(told.steps_size(), 3);
+  EXPECT_EQ(told.steps(0).severity(), "repaired");
+  EXPECT_EQ(told.steps(1).severity(), "warning");
+  *service_.job.mutable_repair() = told;
+  const Outcome status = run({"status", service_.job.id()});
+  EXPECT_NE(status.out.find(key_line("warning", "closed-cavities: 1 cavity closed").substr(0, 40)),
+            std::string::npos)
+      << status.out;
+  const std::string said = run({"submit", dir_ / "hollow.off", "--repair", "wrap=700", "--wait"}).err;
+  EXPECT_EQ(said.find("1 cavity closed"), said.rfind("1 cavity closed")) << "once: " << said;
   EXPECT_EQ(run({"repair", dir_ / "hollow.off", "--repair", "wrap=400", "-o", dir_ / "kept.off"})
                 .err.find("cavity closed"),
             std::string::npos);

@@ -8,6 +8,7 @@
 #include "client/cli/global_options.h"
 #include "client/cli/progress.h"
 #include "client/cli/shell_words.h"
+#include "client/text/key_line.h"
 #include "client/text/message_json.h"
 #include "client/text/nearest_word.h"
 #include "client/text/server_text.h"
@@ -168,6 +169,24 @@ TEST(JobDetails, TellsWhyAJobFailedOrWaits) {
   job.set_state(v1::JOB_STATE_QUEUED);
   job.set_waiting_reason("no workers");
   EXPECT_NE(job_details(job).find("reason:               no workers\n"), std::string::npos);
+}
+
+TEST(JobDetails, TellsWarningsOfARepairAsWarnings) {
+  v1::Job job;
+  for (const char* severity : {"repaired", "warning", ""}) {
+    v1::RepairStep& step = *job.mutable_repair()->add_steps();
+    step.set_code("step");
+    step.set_message("done " + std::to_string(job.repair().steps_size()));
+    step.set_severity(severity);
+  }
+  const std::string text = job_details(job, false);
+  const std::string told = key_line("repaired", "step: done 1") + key_line("warning", "step: done 2") +
+                           key_line("repaired", "step: done 3");
+  EXPECT_NE(text.find(told), std::string::npos) << text;
+  EXPECT_NE(job_details(job, true).find("\033[33mwarning: "), std::string::npos);
+  const Notices warnings = job_warnings(job);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].message, "done 2");
 }
 
 TEST(JobDetails, TellsHowLongAJobIsKept) {

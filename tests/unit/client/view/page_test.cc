@@ -250,6 +250,10 @@ TEST(Page, TellsWarningsAndPieces) {
   model.job.mutable_prepared()->set_points(1999);
   EXPECT_TRUE(facts(view_page(page_of(model))).at("pieces").empty());
   model.job.mutable_prepared()->add_notes()->set_message("faces were turned");
+  model.job.mutable_repair()->add_steps()->set_message("1 hole filled");
+  v1::RepairStep& closed = *model.job.mutable_repair()->add_steps();
+  closed.set_severity("warning");
+  closed.set_message("1 cavity closed");
   model.quality.set_points(2);
   model.quality.set_components(13);
   model.quality.set_solid_components(1);
@@ -258,11 +262,13 @@ TEST(Page, TellsWarningsAndPieces) {
   model.quality.set_advice("a lower threshold joins the pieces");
   const json all = facts(view_page(page_of(model)));
   const json& warnings = all.at("warnings");
-  ASSERT_EQ(warnings.size(), 4u);
-  EXPECT_EQ(warnings[0], "faces were turned");
-  EXPECT_NE(warnings[1].get<std::string>().find("coarse, 1999 points"), std::string::npos);
-  EXPECT_NE(warnings[2].get<std::string>().find("in 13 pieces, the solid in 1"), std::string::npos);
-  EXPECT_EQ(warnings[3], "the skeleton: a lower threshold joins the pieces");
+  ASSERT_EQ(warnings.size(), 6u);
+  EXPECT_EQ(warnings[0], "repaired: 1 hole filled");
+  EXPECT_EQ(warnings[1], "1 cavity closed");
+  EXPECT_EQ(warnings[2], "faces were turned");
+  EXPECT_NE(warnings[3].get<std::string>().find("coarse, 1999 points"), std::string::npos);
+  EXPECT_NE(warnings[4].get<std::string>().find("in 13 pieces, the solid in 1"), std::string::npos);
+  EXPECT_EQ(warnings[5], "the skeleton: a lower threshold joins the pieces");
   EXPECT_EQ(all.at("pieces"), json::array({json::array({"pieces", "13 (solid: 1)"}),
                                            json::array({"tunnels", "3 (solid: 2)"})}));
 }

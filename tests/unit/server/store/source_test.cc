@@ -21,6 +21,7 @@ v1::SubmitJobHeader repaired_header(const std::string& mesh = kMesh, const std::
   step.set_code("filled-holes");
   step.set_count(2);
   step.set_message("2 holes filled");
+  step.set_severity("warning");
   return header;
 }
 
@@ -144,6 +145,7 @@ TEST_F(SourceTest, RefusesWrongReports) {
   refused([](auto& r) { r.clear_steps(); }, "at least one step");
   refused([](auto& r) { r.mutable_steps(0)->clear_code(); }, "no code");
   refused([](auto& r) { r.mutable_steps(0)->set_message(std::string(1001, 'm')); }, "1001 bytes");
+  refused([](auto& r) { r.mutable_steps(0)->set_severity("error"); }, "\"warning\", not 'error'");
   refused(
       [](auto& r) {
         while (r.steps_size() < 31) *r.add_steps() = r.steps(0);
