@@ -44,7 +44,9 @@ test('the field takes any value within the range, and nothing else', () => {
   field.give(-1, 'change');
   slider.set(5);
   field.give('', 'change');
-  assert.deepEqual(told, [3.14159, 11, 1, 5]);
+  field.give('2,5', 'change');
+  field.give('half', 'change');
+  assert.deepEqual(told, [3.14159, 11, 1, 5, 2.5, 2.5]);
 });
 
 test('a range without length keeps its only value', () => {
@@ -62,6 +64,7 @@ test('stops are stood at, and the nearest is found', () => {
   field.give(3.5, 'change');
   assert.equal(range.value, 1);
   field.give('', 'change');
-  assert.deepEqual(told, [2, 1, 1]);
+  field.give('0,5', 'change');
+  assert.deepEqual(told, [2, 1, 1, 0]);
   assert.deepEqual([-9, 2, 4, 99].map((value) => slider.nearest(value)), [0, 0, 1, 2]);
 });

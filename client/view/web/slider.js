@@ -1,13 +1,15 @@
-// A slider with its value in a number field beside it: the slider gives round values, the field takes any.
+// A slider with its value in a field beside it: the slider gives round values, the field takes any.
+import { typed } from './typed.js';
+
 const kSteps = 1000;
 
 /** Any value of a range. */
 export class Slider {
-  // root: holds a range and a number input.  low, high: what both are kept to.  curve: place on the slider
+  // root: holds a range and a field for numbers.  low, high: what both are kept to.  curve: place on the slider
   // (0 .. 1) = (share of the range) ^ (1 / curve).  changed(value): after every change by the user.
   constructor(root, { low, high, curve = 1, changed }) {
     this.range = root.querySelector('input[type=range]');
-    this.field = root.querySelector('input[type=number]');
+    this.field = root.querySelector('input[inputmode]');
     this.low = low;
     this.high = high;
     this.curve = curve;
@@ -17,8 +19,8 @@ export class Slider {
       changed(this.value);
     });
     this.field.addEventListener('change', () => {
-      const typed = this.field.valueAsNumber;
-      this.set(Number.isFinite(typed) ? typed : this.value);
+      const value = typed(this.field.value);
+      this.set(Number.isFinite(value) ? value : this.value);
       changed(this.value);
     });
   }
@@ -48,7 +50,7 @@ export class Stops {
   // root: as for Slider.  values: ascending, at least one.  changed(place): after every change by the user.
   constructor(root, { values, changed }) {
     this.range = root.querySelector('input[type=range]');
-    this.field = root.querySelector('input[type=number]');
+    this.field = root.querySelector('input[inputmode]');
     this.values = values;
     this.range.max = values.length - 1;
     this.range.addEventListener('input', () => {
@@ -56,8 +58,8 @@ export class Stops {
       changed(this.place);
     });
     this.field.addEventListener('change', () => {
-      const typed = this.field.valueAsNumber;
-      this.put(Number.isFinite(typed) ? this.nearest(typed) : this.place);
+      const value = typed(this.field.value);
+      this.put(Number.isFinite(value) ? this.nearest(value) : this.place);
       changed(this.place);
     });
   }

@@ -191,7 +191,7 @@ export class Viewer {
     const [{ skeleton }] = group;
     section.querySelector('.name').textContent = skeleton.name + suffix;
     section.querySelector('.symbol').textContent = skeleton.symbol;
-    section.querySelector('input[type=number]').setAttribute('aria-label', skeleton.name + suffix);
+    section.querySelector('input[inputmode]').setAttribute('aria-label', skeleton.name + suffix);
     const slider = new Slider(section, {
       low: Math.max(...group.map((model) => model.skeleton.low)),
       high: Math.max(...group.map((model) => model.skeleton.high)),
