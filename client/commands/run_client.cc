@@ -10,6 +10,7 @@
 #include "client/cli/progress.h"
 #include "client/commands/command_line.h"
 #include "client/text/nearest_word.h"
+#include "wire/version.h"
 
 namespace affskel::client {
 namespace {
@@ -77,11 +78,18 @@ std::string unknown_option(const std::string& word, const std::vector<const CLI:
   return with_nearest("unknown option " + name, name, known);
 }
 
+// "command", or what a command's own are: "shape".
+std::string kind_below(const CLI::App& level) {
+  if (level.get_parent() == nullptr) return "command";
+  const std::string group = level.get_subcommands([](const CLI::App*) { return true; }).front()->get_group();
+  return CLI::detail::to_lower(group.substr(0, group.size() - 1));  // "Shapes"
+}
+
 std::string unknown_command(const std::string& word, const CLI::App& level) {
   std::vector<std::string> known;
   for (const CLI::App* child : level.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(child->get_name());
-  const std::string text = with_nearest("no command '" + word + "'", word, known);
+  const std::string text = with_nearest("no " + kind_below(level) + " '" + word + "'", word, known);
   if (text.ends_with('?') || level.get_parent() == nullptr) return text;
   return text + "; " + level.get_name() + " knows " + CLI::detail::join(known, ", ");
 }
@@ -130,15 +138,22 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
   if (option != unknown.end()) return unknown_option(*option, levels);
   if (end.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
     return unexpected_words(unknown, arguments);
-  return no_command ? "no command was given" : plain_mismatch(end.what());
+  return no_command ? "no " + kind_below(*levels.back()) + " was given" : plain_mismatch(end.what());
 }
 
 // --help and --version end the parse with a "success"; everything else is wrong usage.
 int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vector<std::string>& arguments,
                      const ClientIo& io) {
+  GlobalOptions global;
+  global.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   if (end.get_exit_code() == 0) {
-    Console console(io.out, io.err, {});
+    const bool version = global.json && end.get_name() == "CallForVersion";
+    Console console(io.out, io.err, version ? style_for(global, io) : ConsoleStyle());
     return guarded(console, [&] {
+      if (version) {
+        console.document({{"program", "affskel-client"}, {"version", wire::kVersion}});
+        return;
+      }
       std::ostringstream text;
       app.exit(end, text, io.err);
       console.result(text.str());
@@ -147,8 +162,6 @@ int report_parse_end(CLI::App& app, const CLI::ParseError& end, const std::vecto
   const std::vector<const CLI::App*> levels = understood(app);
   std::string command;
   for (const CLI::App* level : levels) command += (command.empty() ? "" : " ") + level->get_name();
-  GlobalOptions global;
-  global.json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
   if (arguments.empty()) io.err << app.help();
   Console console(io.out, io.err, style_for(global, io));
   const std::string wrong = usage_error(app, end, levels, arguments);

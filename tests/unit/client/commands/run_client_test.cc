@@ -31,8 +31,9 @@ TEST_F(ClientTest, FileNamesMayHoldAnyBytes) {
 
 TEST_F(ClientTest, AMisspeltCommandIsNamed) {
   EXPECT_NE(run({"statsu", "@last"}).err.find("no command 'statsu'"), std::string::npos);
-  EXPECT_NE(run({"make", "cuboid", "-o", dir_ / "x.off"}).err.find("no command 'cuboid'"), std::string::npos);
+  EXPECT_NE(run({"make", "cuboid", "-o", dir_ / "x.off"}).err.find("no shape 'cuboid'"), std::string::npos);
   EXPECT_NE(run({"make", "blob"}).err.find("make knows torus, sphere,"), std::string::npos);
+  EXPECT_NE(run({"make"}).err.find("no shape was given"), std::string::npos);
   EXPECT_NE(run({}).err.find("no command was given"), std::string::npos);
 }
 
@@ -435,6 +436,10 @@ TEST_F(ClientTest, WrongUsageIsTwoAndJsonOnRequest) {
 
 TEST_F(ClientTest, HelpAndVersionGoToStandardOutput) {
   EXPECT_EQ(run({"--version"}).out.substr(0, 15), "affskel-client ");
+  for (const auto& order : {std::vector<std::string>{"--json", "--version"}, {"--version", "--json"}}) {
+    const json version = json::parse(run(order).out);
+    EXPECT_EQ("affskel-client " + version.at("version").get<std::string>() + "\n", run({"--version"}).out);
+  }
   const Outcome help = run({"fetch", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.out.find("Examples:"), std::string::npos);
