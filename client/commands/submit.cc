@@ -144,7 +144,9 @@ void run_submit(Context& context, const SubmitOptions& options) {
   Submission asked = options.asked;
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
   append(found.said, check_mesh(input, found.solid, options.spacing, asked, console));
-  say(console, direction_notices(found.solid, found.source ? &*found.source : nullptr, asked));
+  say(console,
+      direction_notices(found.solid, found.source ? found.source->steps : std::vector<core::RepairStep>(),
+                        asked.directions));
   if (!options.output_dir.empty()) prepare_output(options.output_dir, job_name(input.path));
   const Submitted submitted =
       submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);

@@ -44,7 +44,7 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   require_short(submission.name, kMaxName, "name");
   require_short(submission.request_id, kMaxRequestId, "request id");
   v1::SubmitJobHeader header;
-  header.set_name(submission.name.empty() ? protocol_text(job_name(input.path), kMaxName) : submission.name);
+  header.set_name(submission.name.empty() ? usual_name(input.path) : submission.name);
   header.set_priority(submission.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (submission.spacing > 0) {
@@ -101,6 +101,10 @@ std::string size_text(const core::Vec3& size, double longest) {
 
 }  // namespace
 
+std::string usual_name(const std::string& file) {
+  return protocol_text(job_name(file), kMaxName);
+}
+
 void check_spacing(const core::Solid& solid, double spacing, const std::string& path) {
   const core::Vec3 size = solid.bbox_max - solid.bbox_min;
   const double longest = longest_side(solid);
@@ -126,16 +130,18 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
   }
 }
 
-Notices direction_notices(const core::Solid& solid, const MeshSource* source, const Submission& submission) {
+Notices direction_notices(const core::Solid& solid, const std::vector<core::RepairStep>& steps,
+                          const std::string& asked) {
   constexpr std::size_t kMany = 20000;
   const std::size_t count = solid.mesh.triangles.size();
-  if (source == nullptr || submission.directions != "triangles" || count < kMany) return {};
-  if (std::none_of(source->steps.begin(), source->steps.end(),
+  if (asked != "triangles" || count < kMany) return {};
+  if (std::none_of(steps.begin(), steps.end(),
                    [](const core::RepairStep& step) { return step.code == "wrapped"; }))
     return {};
-  Notice many =
-      note("MANY_DIRECTIONS", "the wrap's triangles give " + std::to_string(count) +
-                                  " directions, which take as long; 5,000 of a sphere see as much.");
+  Notice many = note("MANY_DIRECTIONS",
+                     "the wrap's " + std::to_string(count) +
+                         " triangles are a direction each, which takes long; 5000 evenly from all sides give "
+                         "nearly the same");
   v1::Setting& directions = many.to_try.emplace_back();
   directions.set_name("directions");
   directions.set_value("sphere:5000");

@@ -15,6 +15,9 @@ namespace affskel::client {
 inline constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 31;
 inline constexpr unsigned kMaxPriority = 9;
 
+/// What a job is called unless its user says: as its file, as far as the protocol has room.
+std::string usual_name(const std::string& file);
+
 /// What is asked of a mesh that is submitted.
 struct Submission {
   double spacing = 0;  ///< mesh units; 0 = by points
@@ -44,8 +47,9 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
 
 /// What would take much less time, where a wrap has so many triangles that their normals are far more directions than are
 /// needed.
-/// @param source what the mesh was before its repair; null where it was not repaired.
-Notices direction_notices(const core::Solid& solid, const MeshSource* source, const Submission& submission);
+/// @param steps of the mesh's repair. @param directions that are asked for.
+Notices direction_notices(const core::Solid& solid, const std::vector<core::RepairStep>& steps,
+                          const std::string& directions);
 
 struct Submitted {
   v1::Job job;

@@ -58,15 +58,20 @@ http::Response api_error(const ClientError& error) {
   return api_answer({{"error", body}}, status_of(error.exit_code()));
 }
 
-nlohmann::ordered_json warnings_json(const Notices& notices) {
-  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
+nlohmann::ordered_json notices_json(const Notices& notices) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Notice& notice : notices) {
-    if (notice.kind != Notice::Kind::kWarning) continue;
     nlohmann::ordered_json to_try = nlohmann::ordered_json::array();
     for (const v1::Setting& setting : notice.to_try) to_try.push_back(to_json(setting));
-    warnings.push_back({{"code", notice.code}, {"message", notice.message}, {"to_try", to_try}});
+    list.push_back({{"code", notice.code}, {"message", notice.message}, {"to_try", to_try}});
   }
-  return warnings;
+  return list;
+}
+
+nlohmann::ordered_json warnings_json(const Notices& notices) {
+  Notices warnings = notices;
+  std::erase_if(warnings, [](const Notice& notice) { return notice.kind != Notice::Kind::kWarning; });
+  return notices_json(warnings);
 }
 
 nlohmann::json json_body(const http::Request& request) {

@@ -20,7 +20,10 @@ http::Response api_error(int status, const std::string& code, const std::string&
 /// code.
 http::Response api_error(const ClientError& error);
 
-/// The warnings among them: code, message and settings to try of each.
+/// Code, message and settings to try of each.
+nlohmann::ordered_json notices_json(const Notices& notices);
+
+/// The same of the warnings among them.
 nlohmann::ordered_json warnings_json(const Notices& notices);
 
 /// The request's body as a JSON object.  @throws ClientError kUsage when it is none.

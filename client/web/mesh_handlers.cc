@@ -189,6 +189,8 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
     answer["error"] = inspection.error->what();
     return api_answer(answer);
   }
+  answer["advice"] =
+      notices_json(direction_notices(*inspection.solid, source.steps, Submission().directions));
   const std::uint64_t bytes = call.upload->bytes() + (source.file ? source.file->bytes() : 0);
   UploadedMesh mesh{std::move(call.upload), name, *std::move(inspection.solid), std::move(source.file),
                     std::move(source.steps)};
@@ -249,7 +251,7 @@ http::Response submit_mesh(WebCall& call) {
   const nlohmann::json body = json_body(call.request);
   const auto mesh = mesh_of(call, text_member(body, "mesh"));
   Submission submission = submission_of(body);
-  if (submission.name.empty()) submission.name = job_name(mesh->name);
+  if (submission.name.empty()) submission.name = usual_name(mesh->name);
   const InputFile input = read_input(mesh->file->path().string());
   check_submission(mesh->solid, input, submission);
   std::optional<MeshSource> source;

@@ -11,6 +11,16 @@ class FakeElement extends EventTarget {
     if (name === 'value') this.value = String(value);
   }
 
+  getAttribute(name) {
+    return this.attributes[name] ?? null;
+  }
+
+  removeAttribute(name) {
+    delete this.attributes[name];
+  }
+
+  focus() {}
+
   append(...children) {
     this.children.push(...children);
   }

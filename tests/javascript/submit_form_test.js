@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { webcrypto } from 'node:crypto';
 import { test } from 'node:test';
 import { session } from '../../client/web/page/session.js';
-import { SubmitForm } from '../../client/web/page/submit_form.js';
+import { SubmitForm, jobName } from '../../client/web/page/submit_form.js';
 import { fakeElement, installDocument } from './fake_document.js';
 
 installDocument();
@@ -37,8 +37,35 @@ function formWith(...answers) {
   return { form, asked };
 }
 
-test('a name may be as long as elsewhere', () => {
-  assert.equal(formWith().form.name.attributes.maxlength, '200');
+test('a name may be as long as elsewhere, and is told by how much it is longer', async () => {
+  const { form, asked } = formWith({});
+  form.name.value = 'é'.repeat(100);
+  await form.send();
+  assert.equal(asked[0].name, 'é'.repeat(100));
+  form.name.value = '形'.repeat(70);
+  await form.send();
+  assert.equal(asked.length, 1);
+  assert.match(form.problem.textContent, /^The name is 10 bytes too long: it may have 200/);
+  assert.equal(jobName(`${'形'.repeat(70)}.off.gz`), '形'.repeat(66), 'as far as there is room');
+  assert.equal(jobName('body.off'), 'body');
+});
+
+test('what is advised of directions is shown while these are asked for, and can be taken', async () => {
+  const advice = [{ message: 'many directions', to_try: [{ name: 'directions', value: 'sphere:5000' }] }];
+  const { form, asked } = formWith({});
+  form.mesh.advice = advice;
+  form.directions.give('triangles', 'change');
+  assert.equal(form.advice.hidden, false);
+  assert.match(form.advice.textContent, /^Note: many directions\. Take these$/);
+  form.advice.querySelector('button').dispatchEvent(new Event('click'));
+  assert.equal(form.advice.hidden, true);
+  await form.send();
+  assert.equal(asked[0].directions, 'sphere:5000');
+  form.directions.give('triangles', 'change');
+  assert.equal(form.advice.hidden, false);
+  form.mesh.advice = undefined;
+  form.advise();
+  assert.equal(form.advice.hidden, true);
 });
 
 test('like a job means its threshold and its seed, too', async () => {

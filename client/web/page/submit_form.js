@@ -1,6 +1,6 @@
 // What is asked of a mesh: the form of a new job.
 import { call } from './api.js';
-import { announce, h, numberField, setText } from './elements.js';
+import { announce, button, h, numberField, setText } from './elements.js';
 import { counted, editable, measure, typed } from './numbers.js';
 import { session } from './session.js';
 
@@ -13,12 +13,20 @@ const kSets = /^(triangles\+sphere|triangles|sphere|random)(?::(\d+)(?::(\d+))?)
 /** Sample points unless another number is asked for. */
 export const kUsualPoints = 100000;
 
+const kLongestName = 200; // bytes, by the protocol
+/** @type {(text: string) => number} */
+const bytesOf = (text) => new TextEncoder().encode(text).length;
+
 /**
- * What a job of a file is called: "body" of "body.off.gz".
+ * What a job of a file is called: "body" of "body.off.gz", as far as there is room.
  * @param {string} file
  * @returns {string}
  */
-export const jobName = (file) => file.replace(/\.(gz|zst)$/i, '').replace(/\.[^.]*$/, '');
+export function jobName(file) {
+  const letters = [...file.replace(/\.(gz|zst)$/i, '').replace(/\.[^.]*$/, '')];
+  while (bytesOf(letters.join('')) > kLongestName) letters.pop();
+  return letters.join('');
+}
 
 /**
  * A control with its label, and a line of help.
@@ -44,10 +52,11 @@ export class SubmitForm {
     this.mesh = mesh;
     this.seed = '1'; // of directions at random; as text, for it may have 20 digits
     this.given = 'points'; // which of the two was typed
-    this.name = h('input', { id: 'name', type: 'text', maxlength: 200, autocomplete: 'off', value: jobName(mesh.name) });
+    this.name = h('input', { id: 'name', type: 'text', autocomplete: 'off', value: jobName(mesh.name) });
     this.points = numberField('points', { value: kUsualPoints });
     this.spacing = numberField('spacing');
     this.lattice = h('p', { id: 'lattice', role: 'status' });
+    this.advice = h('div', { id: 'advice', role: 'status', hidden: true });
     this.directions = choice('directions', {
       triangles: 'the mesh’s own normals',
       sphere: 'evenly from all sides',
@@ -67,6 +76,7 @@ export class SubmitForm {
     this.element = this.build();
     this.listen();
     this.typed('points');
+    this.advise();
   }
 
   build() {
@@ -82,6 +92,7 @@ export class SubmitForm {
         field('spacing', 'or their spacing', this.spacing, 'In units of the mesh.'),
       ),
       this.lattice,
+      this.advice,
       h(
         'details',
         {},
@@ -123,6 +134,28 @@ export class SubmitForm {
     const usual = set === 'triangles' && !skeleton.threshold && [minimum, frame, skeleton.operator].every((word, i) =>
       !word || word === [session.usual.minimum, session.usual.frame, session.usual.operator][i]);
     this.element.querySelector('details').open = !usual;
+    this.advise();
+  }
+
+  // What the service advises is of the directions that are asked for unless others are chosen.
+  advise() {
+    const advice = this.directions.value === 'triangles' ? this.mesh.advice || [] : [];
+    this.advice.replaceChildren(...advice.map(({ message, to_try: settings }) => h('p', {}, `Note: ${message}. `, this.adopting(settings))));
+    this.advice.hidden = advice.length === 0;
+  }
+
+  adopting(settings) {
+    const found = settings.find((setting) => setting.name === 'directions');
+    const [, set, many] = kSets.exec(found?.value || '') || [];
+    if (!many) return null;
+    return button('Take these', () => {
+      this.directions.value = set;
+      this.howMany.value = many;
+      this.howManyField.hidden = false;
+      this.element.querySelector('details').open = true;
+      this.advise();
+      this.directions.focus();
+    });
   }
 
   listen() {
@@ -131,6 +164,7 @@ export class SubmitForm {
     this.frame.addEventListener('change', () => this.typed(this.given));
     this.directions.addEventListener('change', () => {
       this.howManyField.hidden = this.directions.value === 'triangles';
+      this.advise();
     });
     this.operator.addEventListener('change', () => {
       this.threshold.value = ''; // it was of the other one
@@ -190,6 +224,13 @@ export class SubmitForm {
     return sets[this.directions.value];
   }
 
+  nameAsked() {
+    const name = this.name.value.trim();
+    const over = bytesOf(name) - kLongestName;
+    if (over > 0) throw new Error(`The name is ${counted(over, 'byte')} too long: it may have ${kLongestName}, and letters beyond a to z are two to four each.`);
+    return name;
+  }
+
   thresholdAsked() {
     const text = this.threshold.value.trim();
     if (text === '') return undefined;
@@ -207,7 +248,7 @@ export class SubmitForm {
       minimum: this.minimum.value,
       operator: this.operator.value,
       threshold: this.thresholdAsked(),
-      name: this.name.value.trim(),
+      name: this.nameAsked(),
     };
   }
 

@@ -132,22 +132,20 @@ TEST_F(OperationsTest, ARepairedMeshIsSubmittedWithWhatItWas) {
 TEST_F(OperationsTest, FewerDirectionsAreAdvisedForAWrap) {
   core::Solid solid;
   solid.mesh.triangles.resize(132'000);
-  const MeshSource wrapped{"", {{"wrapped", 132'000, "wrapped"}}},
-      filled{"", {{"filled-holes", 1, "filled"}}};
-  const Notices notices = direction_notices(solid, &wrapped, {});
+  const std::vector<core::RepairStep> wrapped = {{"wrapped", 132'000, "wrapped"}},
+                                      filled = {{"filled-holes", 1, "filled"}};
+  const Notices notices = direction_notices(solid, wrapped, "triangles");
   ASSERT_EQ(notices.size(), 1U);
   EXPECT_EQ(notices[0].kind, Notice::Kind::kNote);
-  EXPECT_NE(notices[0].message.find("132000 directions"), std::string::npos) << notices[0].message;
+  EXPECT_NE(notices[0].message.find("132000 triangles"), std::string::npos) << notices[0].message;
   ASSERT_EQ(notices[0].to_try.size(), 1U);
   EXPECT_EQ(notices[0].to_try[0].name(), "directions");
   EXPECT_TRUE(are_plain(notices));
-  EXPECT_TRUE(direction_notices(solid, &filled, {}).empty());
-  EXPECT_TRUE(direction_notices(solid, nullptr, {}).empty());
-  Submission asked;
-  asked.directions = "sphere:5000";
-  EXPECT_TRUE(direction_notices(solid, &wrapped, asked).empty());
+  EXPECT_TRUE(direction_notices(solid, filled, "triangles").empty());
+  EXPECT_TRUE(direction_notices(solid, {}, "triangles").empty());
+  EXPECT_TRUE(direction_notices(solid, wrapped, "sphere:5000").empty());
   solid.mesh.triangles.resize(5000);
-  EXPECT_TRUE(direction_notices(solid, &wrapped, {}).empty());
+  EXPECT_TRUE(direction_notices(solid, wrapped, "triangles").empty());
 }
 
 TEST_F(OperationsTest, TextsThatTheProtocolHasNoRoomForAreRefused) {

@@ -210,6 +210,7 @@ TEST_F(WebServiceTest, TellsWhatIsWrongWithAMeshAndWhere) {
     EXPECT_TRUE(repaired.contains("mesh")) << how << repaired;
     EXPECT_EQ(repaired["facts"]["notes"][0]["code"], "filled-holes");
     EXPECT_NEAR(repaired["facts"]["volume"].get<double>() / 8e9, 1, 0.01) << how;
+    EXPECT_EQ(repaired["advice"].size(), how == std::string("wrap") ? 1U : 0U) << repaired["advice"];
   }
   EXPECT_EQ(ask("POST", "/api/meshes?name=o.off&repair=mend", core::write_off(cube)).status, 400);
   const json bad = uploaded("bad.off", tests::read_file(dir_ / "bad.off"));
