@@ -3,6 +3,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/number_text.h"
@@ -34,15 +36,43 @@ struct SubmitOptions {
 
 namespace fs = std::filesystem;
 
-// Before hours of computing, not after: the names that will be written may be too long, or those of files that must
-// not be replaced.
-void prepare_output(const fs::path& directory, const fs::path& name) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw error_from_errno(error.value(), "cannot create the directory", directory.string());
-  for (const FetchRequest& request : main_files(v1::Job(), (directory / name).string()))
-    const base::AtomicFile trial(request.destination.file);  // never appears
-}
+// Where results will be written.  Those folders of it that were missing go again unless it is kept: an empty one tells of
+// results where nothing was submitted.
+class OutputFolder {
+ public:
+  // Before hours of computing, not after: the names that will be written may be too long, or those of files that must
+  // not be replaced.
+  OutputFolder(const fs::path& directory, const fs::path& name) {
+    std::error_code error;
+    for (fs::path missing = directory; !missing.empty() && !fs::exists(missing, error);
+         missing = missing.parent_path())
+      made_.push_back(missing);
+    fs::create_directories(directory, error);
+    if (error) throw error_from_errno(error.value(), "cannot create the directory", directory.string());
+    try {
+      for (const FetchRequest& request : main_files(v1::Job(), (directory / name).string()))
+        const base::AtomicFile trial(request.destination.file);  // never appears
+    } catch (...) {
+      remove();
+      throw;
+    }
+  }
+  ~OutputFolder() { remove(); }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  void keep() { made_.clear(); }
+
+ private:
+  // Where somebody has put something by now, it stays.
+  void remove() {
+    std::error_code error;
+    for (const fs::path& folder : made_) fs::remove(folder, error);
+    made_.clear();
+  }
+
+  std::vector<fs::path> made_;  // innermost first
+};
 
 std::vector<Fetched> fetch_results(Context& context, const v1::Job& job, const fs::path& directory,
                                    const fs::path& name) {
@@ -147,9 +177,11 @@ void run_submit(Context& context, const SubmitOptions& options) {
   say(console,
       direction_notices(found.solid, found.source ? found.source->steps : std::vector<core::RepairStep>(),
                         asked.directions));
-  if (!options.output_dir.empty()) prepare_output(options.output_dir, job_name(input.path));
+  std::optional<OutputFolder> output;
+  if (!options.output_dir.empty()) output.emplace(options.output_dir, job_name(input.path));
   const Submitted submitted =
       submit(context.session(), context.environment(), input, found.source ? &*found.source : nullptr, asked);
+  if (output) output->keep();
   v1::Job job = submitted.job;
   print_of(job, [&] { console.result(job.id() + "\n"); });
   say(console, reuse_notices(submitted));

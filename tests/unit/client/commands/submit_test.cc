@@ -65,6 +65,17 @@ TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFilesCanHaveTheirNames) {
   }
 }
 
+TEST_F(ClientTest, WhatIsRefusedLeavesNoFolder) {
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "-o", dir_ / "new/deep"}, "unix:/nowhere/s").exit_code, 5);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "new"));
+  std::filesystem::copy_file(dir_ / "cube.off", dir_ / (std::string(251, 'x') + ".off"));
+  EXPECT_EQ(run({"submit", dir_ / (std::string(251, 'x') + ".off"), "-o", dir_ / "new/"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "new"));
+  std::filesystem::create_directory(dir_ / "mine");
+  EXPECT_EQ(run({"submit", dir_ / "cube.off", "-o", dir_ / "mine/deep"}, "unix:/nowhere/s").exit_code, 5);
+  EXPECT_TRUE(std::filesystem::is_empty(dir_ / "mine"));
+}
+
 TEST_F(ClientTest, SubmitTakesNoEmptyNames) {
   for (const auto& [arguments, name] :
        {std::pair{std::vector<std::string>{"submit", dir_ / "cube.off", "-o", ""},
