@@ -264,11 +264,14 @@ class Meshes(unittest.TestCase):
     def test_complex_vertices_and_bytes_that_are_no_off_are_refused(self):
         with self.assertRaisesRegex(affskel.BadInputError, "complex"):
             _meshes.mesh_of(([[0, 0, 0], [1, 0, 0], [0, 1j, 0]], [[0, 1, 2]]))
-        for wrong in (b"/tmp/body.off", b"ply\nformat ascii 1.0\n"):
+        for wrong in (b"/tmp/body.off", b"ply\nformat ascii 1.0\n", b"nOFF\n3 8 6 0", b"4nOFF\n8 6 0"):
             with self.assertRaisesRegex(affskel.BadInputError, "does not begin with OFF"):
                 _checks.require_off(wrong)
         with self.assertRaisesRegex(affskel.BadInputError, "ends before"):
             _checks.require_off(b"OFF\n")
+        for empty, what in ((b"OFF\n0 6 0", "no points"), (b"COFF # 8\r\n8 # 6\n0 0", "no faces")):
+            with self.assertRaisesRegex(affskel.BadInputError, what):
+                _checks.require_off(empty)
         for right in (b"OFF\n1 2 3", b"# a cube\nOFF 8 6 0", b"COFF\n8 6 0", b"STCN4OFF BINARY\n\0\1",
                       b"\xef\xbb\xbfOFF\n8 6 0", b"OFF\r# a cube\r8 6 0\r", b"OFF # a cube\r\n8 6 0\r\n"):
             _checks.require_off(right)

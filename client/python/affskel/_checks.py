@@ -1,6 +1,7 @@
 """What of a mesh is told before anything is sent: that it is open, and that a spacing is not one of its unit."""
 from __future__ import annotations
 
+import itertools
 import numbers
 import re
 from typing import List, NamedTuple, Optional, Sequence, Tuple
@@ -12,6 +13,9 @@ from ._arrays import Floats, Ints
 from ._errors import BadInputError, LimitError, UsageError
 
 
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+
+
 class Polygons(NamedTuple):
     """Vertices (n, 3), and faces as arrays (m, k), one for each number k of corners."""
 
@@ -21,7 +25,7 @@ class Polygons(NamedTuple):
 
 def polygons_of_off(text: bytes) -> Optional[Polygons]:
     """Of plain OFF text, all of whose faces have as many corners; None for any other, which the server reads."""
-    words = re.sub(rb"#[^\n]*", b"", text).split()
+    words = (re.sub(rb"#[^\n]*", b"", text) if b"#" in text else text).split()
     if not words or words.pop(0) != b"OFF":
         return None
     try:
@@ -39,28 +43,37 @@ def polygons_of_off(text: bytes) -> Optional[Polygons]:
     return Polygons(numbers[:3 * vertices].reshape(-1, 3), [rows[:, 1:]])
 
 
-def require_counts(text: bytes, file: str = "") -> None:
-    """Raises BadInputError for OFF text that has no points or no faces; what is no plain OFF text is for others to read."""
-    words = re.sub(rb"#[^\n]*", b"", text).split()
-    if not words or words.pop(0) != b"OFF":
-        return
+_WORD = re.compile(rb"#[^\r\n]*|[^\s#]+")  # or a comment
+
+
+def _first_words(text: bytes, most: int) -> List[bytes]:
+    """Without comments.  Of a large text only its beginning is read."""
+    begin = len(BYTE_ORDER_MARK) if text.startswith(BYTE_ORDER_MARK) else 0
+    words = (found[0] for found in _WORD.finditer(text, begin) if not found[0].startswith(b"#"))
+    return list(itertools.islice(words, most))
+
+
+def _holds_numbers(text: bytes) -> bool:
+    """Whether nothing else follows the first word."""
     try:
-        vertices, faces = int(words[0]), int(words[1])
-        np.array(words[3:], np.float64)
-    except (ValueError, IndexError):
-        return
-    if vertices < 1 or faces < 1:
-        raise BadInputError(f"the mesh has no {'points' if vertices < 1 else 'faces'}", file=file)
+        np.array(_first_words(text, len(text))[1:], np.float64)
+    except ValueError:
+        return False
+    return True
 
 
 def require_off(text: bytes, file: str = "") -> None:
-    """Raises BadInputError for bytes that do not begin as OFF text does, or end before the counts."""
-    words = re.sub(rb"#[^\r\n]*", b"", text.removeprefix(b"\xef\xbb\xbf")).split(maxsplit=3)
-    if not words or re.fullmatch(rb"(ST)?C?N?4?n?OFF", words[0]) is None:
-        raise BadInputError(f"the mesh does not begin with OFF, but with {text[:20]!r}; as bytes, OFF text is taken, and a "
-                            "path as a text", file=file)
+    """Raises BadInputError for bytes that do not begin as OFF text does, end before the counts, or have no points or
+    faces by these and nothing else that is wrong, which the server tells with its line."""
+    words = _first_words(text, 3)
+    if not words or re.fullmatch(rb"(ST)?C?N?4?OFF", words[0]) is None:
+        raise BadInputError(f"the mesh does not begin with OFF, but with {text[:20]!r}; as bytes, OFF text is taken, "
+                            "and a path as a text", file=file)
     if len(words) < 3:
         raise BadInputError("the mesh ends before it tells how many points and faces it has", file=file)
+    for word, what in zip(words[1:], ("points", "faces")):
+        if word.isdigit() and int(word) == 0 and _holds_numbers(text):
+            raise BadInputError(f"the mesh has no {what}", file=file)
 
 
 def _places(points: npt.NDArray[np.float64]) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
@@ -122,8 +135,21 @@ def require_finite(mesh: Polygons, file: str = "") -> None:
         raise BadInputError(f"vertex {int(np.argmax(bad))} is not finite", file=file)
 
 
-def _edges(mesh: Polygons) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """The different points, a code of each edge between them, and how many faces it has."""
+class Edges(NamedTuple):
+    """The different points of a mesh, a code of each edge between them, and how many faces each edge has."""
+
+    places: npt.NDArray[np.float64]
+    codes: npt.NDArray[np.int64]
+    faces: npt.NDArray[np.int64]
+
+    @property
+    def are_crowded(self) -> bool:
+        """Whether one has more than two faces: a face is there twice, say, or solids touch."""
+        return bool((self.faces > 2).any())
+
+
+def edges_of(mesh: Polygons) -> Edges:
+    """Vertices at one place are one, as they are for the server."""
     places, which = _places(mesh.points)
     edges: List[npt.NDArray[np.int64]] = []
     for group in mesh.faces:
@@ -131,27 +157,22 @@ def _edges(mesh: Polygons) -> Tuple[npt.NDArray[np.float64], npt.NDArray[np.int6
         sides = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2)
         low, high = np.sort(sides[sides[:, 0] != sides[:, 1]], axis=1).T
         edges.append(low * len(places) + high)
-    return (places, *np.unique(np.concatenate(edges), return_counts=True))
+    return Edges(places, *np.unique(np.concatenate(edges), return_counts=True))
 
 
-def has_crowded_edges(mesh: Polygons) -> bool:
-    """Whether an edge has more than two faces: a face is there twice, say, or solids touch."""
-    return bool((_edges(mesh)[2] > 2).any())
-
-
-def require_closed(mesh: Polygons, file: str = "") -> None:
-    """Every edge needs two faces, where vertices at one place are one, as they are for the server.
+def require_closed(edges: Edges, file: str = "") -> None:
+    """Every edge needs two faces.
 
     Raises:
         BadInputError: with the number of open edges and a place.
     """
-    places, codes, count = _edges(mesh)
-    alone = np.stack(np.divmod(codes[count == 1], len(places)), axis=1)
+    places, codes, faces = edges
+    alone = np.stack(np.divmod(codes[faces == 1], len(places)), axis=1)
     if len(alone):
         a, b = (tuple(float(x) for x in places[vertex]) for vertex in alone[0])
-        raise BadInputError(f"the mesh does not bound a solid: {len(alone)} open edges (one face only), for example from "
-                            f"{a} to {b}; fill its holes by repair='fill=LENGTH' or 'wrap', by affskel-client repair, MeshLab's "
-                            "Close Holes or Blender's Fill Holes", file=file)
+        raise BadInputError(f"the mesh does not bound a solid: {len(alone)} open edges (one face only), for example "
+                            f"from {a} to {b}; fill its holes by repair='fill=LENGTH' or 'wrap', by affskel-client "
+                            "repair, MeshLab's Close Holes or Blender's Fill Holes", file=file)
 
 
 _UNITS = ((1.0, "metres"), (100.0, "centimetres"), (1000.0, "millimetres"))
@@ -185,7 +206,8 @@ def require_points(mesh: Polygons, spacing: float, file: str = "") -> None:
                          f"{MAX_POINTS} are taken; {(volume / MAX_POINTS) ** (1 / 3):.3g} is within that", file=file)
     if spacing <= longest / 2 and count >= LEAST_POINTS:
         return
-    unit = "".join(f", the size of a person in {name}" for length, name in _UNITS if 0.5 * length <= longest <= 2.5 * length)
+    unit = "".join(f", the size of a person in {name}" for length, name in _UNITS
+                   if 0.5 * length <= longest <= 2.5 * length)
     better = f"; a spacing of {(volume / 1e5) ** (1 / 3):.2g} gives 100000 points" if volume > 0 else ""
     raise BadInputError(f"the spacing {spacing:.6g} leaves no room for sample points: the mesh measures "
                         + " x ".join(f"{side:.3g}" for side in size) + f" units{unit}{better}", file=file)

@@ -11,7 +11,8 @@ import tempfile
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Union
 
-from ._checks import MAX_POINTS, has_crowded_edges, longest_side, number_of, require_closed, require_counts, require_finite, require_off, require_points, share_of, text_of
+from ._checks import (MAX_POINTS, edges_of, longest_side, number_of, require_closed, require_finite, require_off,
+                      require_points, share_of, text_of)
 from ._errors import AffskelError, BadInputError, LimitError, UsageError
 from ._job import Job, skeleton_params
 from ._meshes import Mesh, MeshLike, mesh_of
@@ -24,11 +25,13 @@ from .v1 import client_service_pb2 as service
 from .v1 import types_pb2 as types
 
 DEFAULT_POINTS = 100000
+SEEN_WITHIN = 5.0  # seconds for the first status of a job that affskel-client has submitted
 MAX_NAME, MAX_OWNER = 200, 100  # bytes, by the contract
 
 
 # How affskel-client tells what would mend a mesh with holes.
-_COMMANDS = re.compile(r"; (?:fill them by: .*? --repair (fill=\S+) .*, or )?take a new surface round all of it: .* --repair wrap .*")
+_COMMANDS = re.compile(r"; (?:fill them by: .*? --repair (fill=\S+) .*, or )?"
+                       "take a new surface round all of it: .* --repair wrap .*")
 
 
 def _own_way(commands: re.Match[str]) -> str:
@@ -63,7 +66,6 @@ def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) ->
         if mesh.file and find_program() is not None:
             return True
         require_off(mesh.text or b"", mesh.file)
-        require_counts(mesh.text or b"", mesh.file)
         return False
     try:
         require_finite(mesh.polygons, mesh.file)
@@ -71,13 +73,14 @@ def _needs_program(mesh: Mesh, spacing: Union[float, str, None], repair: str) ->
         if mesh.file and find_program() is not None:  # which tells the line
             return True
         raise
+    edges = edges_of(mesh.polygons)
     try:
-        require_closed(mesh.polygons, mesh.file)
+        require_closed(edges, mesh.file)
     except BadInputError:
         if repair == "auto" and find_program() is not None:
             return True
         raise
-    if repair == "auto" and find_program() is not None and has_crowded_edges(mesh.polygons):
+    if repair == "auto" and edges.are_crowded and find_program() is not None:
         return True
     if spacing is not None:
         require_points(mesh.polygons, number_of(spacing, "spacing", _SPACING), mesh.file)
@@ -126,8 +129,9 @@ class Client:
 
     def submit(self, mesh: MeshLike, *, spacing: Union[float, str, None] = None, points: Optional[int] = None,
                directions: str = "triangles", minimum: str = "set", frame: str = "axis",
-               operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None, priority: int = 5, request_id: str = "",
-               repair: str = "auto", isovalue: Optional[float] = None) -> Job:
+               operator: str = "ridge", threshold: Optional[float] = None, name: Optional[str] = None,
+               priority: int = 5, request_id: str = "", repair: str = "auto",
+               isovalue: Optional[float] = None) -> Job:
         """Submits a mesh.  The same mesh and parameters give the same job, computed once.
 
         A mesh that bounds no solid is repaired as `affskel-client submit` does, where that is installed: `Status.notes`
@@ -146,7 +150,8 @@ class Client:
             priority: 0 .. 9, higher first.
             request_id: submitting again with the same key and content gives the same job; other content is refused.
             repair: "auto" welds, turns, drops and fills what needs it, and `Status.notes` tells so; "none" refuses;
-                "fill=LENGTH", in mesh units, "wrap" and "wrap=ALPHA" submit what the installed affskel-client makes of it.
+                "fill=LENGTH", in mesh units, "wrap" and "wrap=ALPHA" submit what the installed affskel-client makes of
+                it.
             isovalue: of an image of voxels (.nrrd, .mha, .nii): the value at the surface of the solid.
 
         Raises:
@@ -304,5 +309,5 @@ class Client:
                 raise type(error)(message.replace(file, "the mesh")) from None  # the caller has no such file
         job = Job(self._session, document["id"], bool(document["existed"]), given.file)
         with contextlib.suppress(AffskelError):  # the job is there whatever becomes of this call
-            job.status()
+            job.seen = status_of(self._session.get_job(job.id, SEEN_WITHIN))
         return job

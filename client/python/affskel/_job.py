@@ -9,8 +9,8 @@ from typing import Any, Dict, Iterator, List, Optional, Union
 
 import numpy as np
 
-from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of, refined_of,
-                      surface_of)
+from ._arrays import (Field, Floats, Lattice, Points, Surface, directions_of, field_of, lattice_of, points_of,
+                      refined_of, surface_of)
 from ._checks import number_of, share_of
 from ._errors import AffskelWarning, InternalError, JobCancelledError, UsageError, job_failed
 from ._measures import Measures, measures_of
@@ -73,8 +73,8 @@ def _argument(value: str) -> str:
 
 
 class Job:
-    """A job on a server.  It holds nothing of the results: each call fetches what it returns.  Pickled for another process,
-    it is the same job there, by a connection of its own.
+    """A job on a server.  It holds nothing of the results: each call fetches what it returns.  Pickled for another
+    process, it is the same job there, by a connection of its own.
 
     Results that are not stored yet are computed by a worker first, from the finished field.  Calls for results raise
     NotFoundError before the job is done, and all calls raise AffskelError when the server says no.
@@ -194,8 +194,8 @@ class Job:
         """The skeleton as a triangulated surface, with the curves of "ridge"; the lines of "curve".
 
         Args:
-            operator: "ridge", "curve", "chords", "zucker-hummel", "sobel", "central", "intermediate" or "flux"; None = the
-                job's.
+            operator: "ridge", "curve", "chords", "zucker-hummel", "sobel", "central", "intermediate" or "flux"; None =
+                the job's.
             threshold: in the operator's unit; None = the operator's default, without an operator the job's.
             alpha: squared radius of the alpha shape through the points, mesh units squared; None = by the spacing.
                 Not for "ridge", "chords" and "curve", which have triangles or lines themselves.
@@ -259,7 +259,8 @@ class Job:
         request = self._eroded_request(service.ARTIFACT_KIND_ERODED_SURFACE, level, volume)
         message = types.TriangleMesh.FromString(self._fetched(request, timeout))
         self._warn_if_empty("eroded solid", len(message.corners), message.quality)
-        return self._saveable(surface_of(message, ("E", "area")), "erode", self.id, "--as", "surface", *_level_options(level, volume))
+        surface = surface_of(message, ("E", "area"))
+        return self._saveable(surface, "erode", self.id, "--as", "surface", *_level_options(level, volume))
 
     def eroded_points(self, fraction: Union[float, str, None] = None, volume: Optional[float] = None, *,
                       timeout: Optional[float] = None) -> Points:
@@ -298,11 +299,12 @@ class Job:
         return self._bytes(service.ARTIFACT_KIND_SOURCE, timeout)
 
     def save(self, what: str, file: Union[str, "os.PathLike[str]"], *options: str) -> Path:
-        """Writes what `affskel-client fetch`, or `render` and `view`, do, by the installed affskel-client, and returns where.
+        """Writes what `affskel-client fetch`, or `render` and `view`, do, by the installed affskel-client, and returns
+        where.
 
         Args:
-            what: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source", "picture"
-                (.png) or "view" (.html).
+            what: "field", "divergence", "skeleton", "surface", "curve", "thickness", "eroded", "mesh", "source",
+                "picture" (.png) or "view" (.html).
             file: the format is that of its extension; of a curve also .json, .graphml, .swc, .glb, .csv and .xyz.
             options: more of the command's, such as "--operator=sobel".
 

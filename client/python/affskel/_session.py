@@ -160,12 +160,17 @@ class Session:
                 self._proven = True
                 return result
 
-    def _unary(self, name: str, request: Any) -> Any:
+    def _unary(self, name: str, request: Any, timeout: Optional[float] = None) -> Any:
+        """timeout: seconds for all tries; None = the patience."""
+        deadline = _deadline(timeout)
+
         def call(at: Connection) -> Any:
-            with at.call(name, request, UNARY_DEADLINE, self._metadata()) as answer:
+            left = _left(deadline)
+            longest = UNARY_DEADLINE if left is None else min(left, UNARY_DEADLINE)
+            with at.call(name, request, longest, self._metadata()) as answer:
                 return answer.result()
 
-        return self._run(call)
+        return self._run(call, deadline=deadline)
 
     def submit(self, header: service.SubmitJobHeader, mesh: bytes) -> service.SubmitJobResponse:
         def messages() -> Iterator[service.SubmitJobRequest]:
@@ -181,8 +186,8 @@ class Session:
 
         return self._run(call)
 
-    def get_job(self, job: str) -> types.Job:
-        answer: types.Job = self._unary("GetJob", service.GetJobRequest(job=job))
+    def get_job(self, job: str, timeout: Optional[float] = None) -> types.Job:
+        answer: types.Job = self._unary("GetJob", service.GetJobRequest(job=job), timeout)
         return answer
 
     def list_jobs(self, request: service.ListJobsRequest, limit: int) -> List[types.Job]:
@@ -228,7 +233,7 @@ class Session:
             yield now
             if now.state in FINAL_STATES:
                 return
-            raise TimedOutError(f"the job was not at its end after {timeout:g} s; it goes on")
+            raise TimedOutError("the job is not at its end; it goes on")
 
         while True:
             watch = self._run(lambda at: _Watch(at, service.WatchJobRequest(job=job), _left(deadline),
