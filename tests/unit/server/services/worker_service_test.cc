@@ -79,6 +79,7 @@ TEST_F(WorkerServiceTest, ARequestGoesToTheOneThatHoldsItsJob) {
     });
     wait_for_workers(static_cast<int>(2 + (&one - workers.data()) + 1));
   }
+  const std::uint64_t granted = job(ids.back()).counters().leases_granted();
   // The last that came, then one that came before it, then whoever is there.
   std::list<grpc::ClientContext> calls;
   std::list<std::future<Fetched>> fetched;
@@ -95,6 +96,8 @@ TEST_F(WorkerServiceTest, ARequestGoesToTheOneThatHoldsItsJob) {
                   other.got.wait_for(std::chrono::seconds(0)) == std::future_status::timeout)
           << other.worker << " instead of " << workers[expected].worker;
   }
+  // Nor has any of them been taken from one and given to another, the last not either.
+  EXPECT_EQ(job(ids.back()).counters().leases_granted(), granted + workers.size());
   for (grpc::ClientContext& call : calls) call.TryCancel();
 }
 

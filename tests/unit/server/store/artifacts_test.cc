@@ -1,3 +1,6 @@
+#include <set>
+#include <string>
+
 #include "expect_store_error.h"
 #include "store_fixture.h"
 #include "wire/sha256.h"
@@ -65,6 +68,16 @@ TEST_F(ArtifactTest, AJobWithASheetIsDoneWithItsSurface) {
             "sheet");
   EXPECT_EQ(store_->open_artifact(artifact_request(id, v1::ARTIFACT_KIND_SKELETON)).reader, nullptr);
   EXPECT_EQ(lease().kind(), v1::TASK_KIND_SKELETON);
+}
+
+TEST_F(ArtifactTest, JobsOfWhichMuchIsRequestedHideNoOthers) {
+  const std::string first = complete_job(10, 20).id(), second = submit("OFF 2", "other").id();
+  erode(10, 20);
+  derive();
+  for (int threshold = 1; threshold <= 20; ++threshold)
+    store_->open_artifact(skeleton_request(first, threshold));
+  store_->open_artifact(skeleton_request(second, 3));
+  EXPECT_EQ(store_->requested_jobs(), (std::set<std::string>{first, second}));
 }
 
 TEST_F(ArtifactTest, OtherSkeletonIsMadeOnceAndKept) {

@@ -271,10 +271,11 @@ TEST_F(DeriveTest, EmptySkeletonsSayWhy) {
   EXPECT_FALSE(points.quality().advice().empty());
 }
 
-// Each as if alone, and of another field the first is not given.
+// Each as if alone, and of another field the first is not given.  So many thresholds that what is known would be more than
+// what is kept.
 TEST_F(DeriveTest, WhatIsKnownChangesNothing) {
   std::vector<v1::Lease> leases;
-  for (const double threshold : {0.0, 4.0, 6.0, 2.0}) {
+  for (const double threshold : {0.0, 4.0, 6.0, 2.0, 3.0, 5.0}) {
     for (const v1::Operator which : {v1::OPERATOR_RIDGE, v1::OPERATOR_CURVE}) {
       leases.push_back(lease_of(v1::TASK_KIND_SKELETON));
       leases.back().mutable_skeleton()->set_operator_(which);
