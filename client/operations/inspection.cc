@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/repair/fill_holes.h"
-#include "core/repair/repair_mesh.h"
+#include "core/repair/flat_sheet.h"
 #include "wire/sha256.h"
 
 namespace affskel::client {

@@ -39,7 +39,8 @@ constexpr float kShallow = 3;
 constexpr double kBareRadii = 4, kBareSpacings = 3, kMostBare = 0.2;
 constexpr std::size_t kLookedAt = 20000;
 
-// Of the vertices of a skeleton of `ridge`: below this share on a ridge hardly any is.  A lower threshold, by this factor.
+// Of the vertices of a skeleton of `ridge`: below this share on a ridge hardly any is.  A lower threshold, by this
+// factor.
 constexpr double kLittleRidge = 0.1, kLowerThreshold = 3;
 
 // A sheet of less than this share of the points of one through a cube is hardly there.
@@ -177,7 +178,8 @@ Advice coarse_lattice_advice(const Lattice& lattice, const BettiNumbers& of_latt
   if (surfaces_meet) {
     return {
         "it has the " + words(of_lattice) + " of the sample points, the solid has " + words(solid) +
-            ": its surfaces cross or touch each other, and are counted each by itself, whereas what overlaps is one here.",
+            ": its surfaces cross or touch each other, and are counted each by itself, whereas what overlaps is "
+            "one here.",
         {}};
   }
   return with_more_points(lattice, "it has the " + words(of_lattice) +
@@ -213,8 +215,8 @@ Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, 
   return {
       base::rounded(100 * *share, 2) +
           " % of the solid are farther from it than twice the thickness there, for want of a ridge as strong as the "
-          "threshold: it may be weaker there, or none, as in walls that are bent, of a bowl or a mug, where E grows up to "
-          "the hollow side.",
+          "threshold: it may be weaker there, or none, as in walls that are bent, of a bowl or a mug, where E grows "
+          "up to the hollow side.",
       {}};
 }
 

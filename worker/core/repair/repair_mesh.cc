@@ -11,6 +11,7 @@
 #include "core/mesh/unused_points.h"
 #include "core/repair/cloud_surface.h"
 #include "core/repair/fill_holes.h"
+#include "core/repair/flat_sheet.h"
 #include "core/repair/orient_soup.h"
 #include "core/repair/wrap_solid.h"
 #include "core/solid/solid.h"
@@ -27,8 +28,8 @@ constexpr double kSmallest = 1e-60, kLargest = 1e60;
 constexpr double kWrapOffset = 0.1;  // of alpha
 // Volume by area^(3/2): a ball 0.094, a rod fifty times as long as thick 0.03, a plate of 1 % 0.0035.
 constexpr double kNoVolume = 1e-3;
-// Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more than
-// 0.5 % off when these were filled were beyond it, of those with many holes none.
+// Of the volume.  Of bodies with 5 % of their surface cut out, in one to four holes, nearly all whose volume was more
+// than 0.5 % off when these were filled were beyond it, of those with many holes none.
 constexpr double kToldBulge = 0.003;
 constexpr std::uint64_t kManyFlaps = 10;
 constexpr double kMostFlat = 0.2;   // of the surface: flat parts that are left out though open
@@ -47,24 +48,6 @@ double diagonal(const Mesh& mesh) {
   return box_diagonal(mesh);
 }
 
-// Whether points lie in a plane, as those of a sheet in single precision do: in that through the first, the farthest from
-// it and the farthest from the line of these two.
-bool lie_in_a_plane(const Mesh& mesh, const std::vector<std::uint32_t>& points) {
-  constexpr double kRounding = 1e-6;  // of the length
-  if (points.empty()) return true;
-  const Vec3 first = mesh.points[points[0]];
-  Vec3 along{}, normal{};
-  const auto take_longer = [](Vec3& longest, const Vec3& one) {
-    if (norm(one) > norm(longest)) longest = one;
-  };
-  for (const std::uint32_t v : points) take_longer(along, mesh.points[v] - first);
-  for (const std::uint32_t v : points) take_longer(normal, cross(along, mesh.points[v] - first));
-  const double thickness = kRounding * norm(along) * norm(normal);
-  return std::all_of(points.begin(), points.end(), [&](std::uint32_t v) {
-    return std::fabs(dot(normal, mesh.points[v] - first)) <= thickness;
-  });
-}
-
 class Mending {
  public:
   Mending(const Mesh& mesh, const RepairOptions& options) : options_(options) {
@@ -81,7 +64,8 @@ class Mending {
     }
   }
 
-  /// Whether all or most of its parts were open and hold nothing when filled, as flat ones do: what a wrap goes round may be no more.
+  /// Whether all or most of its parts were open and hold nothing when filled, as flat ones do: what a wrap goes round
+  /// may be no more.
   bool holds_nothing() const { return holds_nothing_ > 0; }
 
   /// @throws CoreError kBadInput for an open sheet, but with lengths of one's own: filled, it would bound nothing, and
@@ -376,12 +360,6 @@ void check_size(const Mesh& mesh) {
 }
 
 }  // namespace
-
-bool is_flat_sheet(const Mesh& mesh) {
-  std::vector<std::uint32_t> corners;
-  for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  return lie_in_a_plane(mesh, corners);
-}
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
   check_size(mesh);

@@ -37,8 +37,8 @@ struct Room {
   double radius = 0;
 };
 
-// The largest of the balls that touch a cavity's wall in the middle of a triangle, looked at evenly, and hold nothing of the
-// surface: each shrinks until it does not (Ma, Bae and Choi 2012).
+// The largest of the balls that touch a cavity's wall in the middle of a triangle, looked at evenly, and hold nothing
+// of the surface: each shrinks until it does not (Ma, Bae and Choi 2012).
 // @param surface the wall, facing into the cavity, before what lies in it.
 Room room_in(const Mesh& surface, std::size_t wall_triangles, ExecutionContext* context) {
   constexpr std::size_t kLookedAt = 500;
@@ -89,7 +89,8 @@ class CavityWrapper {
   }
 
   void add_to(SolidWrap& wrap) {
-    // Of surfaces that cross, be it themselves, overlaps count twice, and what touches may lie on another: not told apart.
+    // Of surfaces that cross, be it themselves, overlaps count twice, and what touches may lie on another: not told
+    // apart.
     if (!solid_.self_intersecting) wrap.volume = solid_.volume;
     std::vector<std::uint32_t> outermost_first(count_);
     std::iota(outermost_first.begin(), outermost_first.end(), 0U);

@@ -11,6 +11,7 @@
 #include "core/mesh/perturb.h"
 #include "core/mesh/unused_points.h"
 #include "core/repair/fill_holes.h"
+#include "core/repair/repaired.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/solid.h"
@@ -20,53 +21,6 @@
 
 namespace affskel::core {
 namespace {
-
-double volume_of(const Mesh& mesh) {
-  return make_solid(mesh).volume;
-}
-
-// A hole: the triangles whose corners all lie within `radius` of a point.
-Mesh cut(const Mesh& mesh, const Vec3& at, double radius) {
-  Mesh open = mesh;
-  std::erase_if(open.triangles, [&](const Triangle& t) {
-    return std::all_of(t.begin(), t.end(),
-                       [&](std::uint32_t v) { return norm(mesh.points[v] - at) < radius; });
-  });
-  return open;
-}
-
-const RepairStep* step(const RepairedMesh& repaired, const std::string& code) {
-  const auto found = std::find_if(repaired.steps.begin(), repaired.steps.end(),
-                                  [&](const RepairStep& s) { return s.code == code; });
-  return found == repaired.steps.end() ? nullptr : &*found;
-}
-
-TEST(RepairMesh, RefusesAFlatSheetAndAWrapOfIt) {
-  // Tilted, and rounded as in a file of single precision.
-  Mesh sheet{{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.7}, {1, 1, 1}}, {{0, 1, 2}, {1, 3, 2}}};
-  for (Vec3& p : sheet.points) p.z = static_cast<float>(p.z);
-  for (const RepairKind kind : {RepairKind::kMend, RepairKind::kWrap}) {
-    try {
-      repair_mesh(sheet, {.kind = kind});
-      ADD_FAILURE() << "not refused";
-    } catch (const CoreError& error) {
-      EXPECT_NE(std::string(error.what()).find("open sheet and flat"), std::string::npos) << error.what();
-    }
-  }
-  sheet.points[3].z = 1.1;
-  EXPECT_NO_THROW(repair_mesh(sheet)) << "bent";
-  EXPECT_NO_THROW(repair_mesh(make_box(1, 1, 1e-8))) << "a plate";
-}
-
-// Of a cone without its base the volume seems none from its tip.
-TEST(RepairMesh, CallsFlatWhatLiesInAPlane) {
-  const Mesh tip{{{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
-  EXPECT_FALSE(is_flat_sheet(tip));
-  EXPECT_NE(repair_mesh(tip).left.find("1 hole is left"), std::string::npos) << repair_mesh(tip).left;
-  EXPECT_NEAR(repair_mesh(tip, {.longest_hole = 9}).volume, 1.0 / 6, 1e-12);
-  EXPECT_TRUE(is_flat_sheet({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {5, 5, 5}}, {{0, 1, 2}}}))
-      << "but for a point";
-}
 
 // Each triangle by itself, which no step joins.
 TEST(RepairMesh, WrapsABoxOfLooseTriangles) {
@@ -273,52 +227,6 @@ TEST(RepairMesh, JoinsCornersThatRoundingHasParted) {
   EXPECT_EQ(step(repair_mesh(parted(1e-3)), "joined-points"), nullptr);
 }
 
-TEST(RepairMesh, AWrapHasTheVolumeOfWhatItWraps) {
-  const Mesh body = make_body({.triangles = 5000});
-  const Mesh open = cut(cut(body, body.points[17], 40), body.points[900], 30);
-  const RepairedMesh repaired = repair_mesh(open, {.kind = RepairKind::kWrap, .alpha = 20});
-  EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(body), 1, 0.02);
-}
-
-// A ball, in it a ball's cavity, in that a ball with a cavity of its own.
-TEST(RepairMesh, AWrapKeepsCavitiesAndWhatLiesInThem) {
-  const auto ball = [](double radius) { return make_sphere(radius, 1280); };
-  const Mesh onion = joined(joined(ball(10), reversed(ball(8))), joined(ball(5), ball(3)));
-  const RepairedMesh repaired = repair_mesh(onion, {.kind = RepairKind::kWrap, .alpha = 0.5});
-  EXPECT_NEAR(repaired.volume / repair_mesh(onion).volume, 1, 0.01);
-  ASSERT_NE(step(repaired, "wrapped"), nullptr);
-  EXPECT_NE(step(repaired, "wrapped")->message.find("in 2 pieces with 2 cavities"), std::string::npos)
-      << step(repaired, "wrapped")->message;
-  for (const char* code : {"turned-cavities", "closed-cavities", "wrap-volume"})
-    EXPECT_EQ(step(repaired, code), nullptr) << code;
-  EXPECT_TRUE(make_solid(repaired.mesh).notes.empty());
-}
-
-TEST(RepairMesh, AWrapTellsCavitiesThatItCloses) {
-  const Mesh box = make_box(4, 4, 4);
-  const Mesh hollow = joined(box, reversed(moved(make_box(2, 2, 2), {1, 1, 1})));
-  const RepairedMesh coarse = repair_mesh(hollow, {.kind = RepairKind::kWrap, .alpha = 1.5});
-  ASSERT_NE(step(coarse, "closed-cavities"), nullptr);
-  EXPECT_EQ(step(coarse, "closed-cavities")->count, 1U);
-  ASSERT_NE(step(coarse, "wrap-volume"), nullptr);
-  EXPECT_NE(step(coarse, "wrap-volume")->message.find("what it wraps 56"), std::string::npos)
-      << step(coarse, "wrap-volume")->message;
-  // A beam through the cavity: how much they hold is not known, for overlaps count twice.
-  const Mesh pierced = joined(hollow, moved(make_box(8, 0.5, 0.5), {-2, 1.75, 1.75}));
-  const RepairedMesh beside = repair_mesh(pierced, {.kind = RepairKind::kWrap, .alpha = 0.2});
-  EXPECT_NE(step(beside, "closed-cavities"), nullptr);
-  EXPECT_EQ(step(beside, "wrap-volume"), nullptr);
-}
-
-TEST(RepairMesh, AWrapOfWhatIsCountedTwiceIsNotComparedWithIt) {
-  const Mesh box = make_box(2, 2, 2);
-  for (const Mesh& mesh : {make_coil(), joined(box, moved(box, {1, 1, 1})), joined(box, box)}) {
-    const RepairedMesh repaired = repair_mesh(mesh, {.kind = RepairKind::kWrap, .alpha = 0.2});
-    EXPECT_LT(repaired.volume, 0.97 * volume_of(mesh));
-    EXPECT_EQ(step(repaired, "wrap-volume"), nullptr) << step(repaired, "wrap-volume")->message;
-  }
-}
-
 // A hole of many edges, or a wrap, takes seconds by itself.
 TEST(RepairMesh, StopsWithinAHole) {
   const Mesh open = cut(make_sphere(10, 20'480), {0, 0, 10}, 2);
@@ -340,13 +248,6 @@ TEST(RepairMesh, PointsAreWrapped) {
   const RepairedMesh repaired = repair_mesh(points, {.kind = RepairKind::kWrap, .alpha = 2});
   EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(ball), 1, 0.02);
   EXPECT_EQ(repair_mesh(points).left, "there are points and no triangles");
-}
-
-TEST(RepairMesh, WrapsHolesThatAreWiderThanAlpha) {
-  const Mesh ball = make_sphere(10, 1280);
-  const RepairedMesh repaired =
-      repair_mesh(cut(ball, {0, 0, 10}, 4), {.kind = RepairKind::kWrap, .alpha = 1});
-  EXPECT_NEAR(volume_of(repaired.mesh) / volume_of(ball), 1, 0.02);
 }
 
 // A cavity that touches a notch along an edge: the cells of a cube of 27, two of them empty.

@@ -1,0 +1,42 @@
+#include "core/repair/flat_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/base/error.h"
+#include "core/repair/repaired.h"
+#include "core/shapes/shapes.h"
+
+namespace affskel::core {
+namespace {
+
+TEST(FlatSheet, IsRefusedAndAWrapOfIt) {
+  // Tilted, and rounded as in a file of single precision.
+  Mesh sheet{{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.7}, {1, 1, 1}}, {{0, 1, 2}, {1, 3, 2}}};
+  for (Vec3& p : sheet.points) p.z = static_cast<float>(p.z);
+  for (const RepairKind kind : {RepairKind::kMend, RepairKind::kWrap}) {
+    try {
+      repair_mesh(sheet, {.kind = kind});
+      ADD_FAILURE() << "not refused";
+    } catch (const CoreError& error) {
+      EXPECT_NE(std::string(error.what()).find("open sheet and flat"), std::string::npos) << error.what();
+    }
+  }
+  sheet.points[3].z = 1.1;
+  EXPECT_NO_THROW(repair_mesh(sheet)) << "bent";
+  EXPECT_NO_THROW(repair_mesh(make_box(1, 1, 1e-8))) << "a plate";
+}
+
+// Of a cone without its base the volume seems none from its tip.
+TEST(FlatSheet, IsWhatLiesInAPlane) {
+  const Mesh tip{{{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
+  EXPECT_FALSE(is_flat_sheet(tip));
+  EXPECT_NE(repair_mesh(tip).left.find("1 hole is left"), std::string::npos) << repair_mesh(tip).left;
+  EXPECT_NEAR(repair_mesh(tip, {.longest_hole = 9}).volume, 1.0 / 6, 1e-12);
+  EXPECT_TRUE(is_flat_sheet({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {5, 5, 5}}, {{0, 1, 2}}}))
+      << "but for a point";
+}
+
+}  // namespace
+}  // namespace affskel::core
