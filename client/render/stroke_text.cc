@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "client/render/picture_letters.h"
+
 namespace affskel::client {
 namespace {
 
@@ -115,9 +117,44 @@ constexpr double kGap = 1.8;  // between glyphs
 constexpr double kSpaceWidth = 2;
 constexpr double kStroke = 0.72;  // stroke width in grid units
 
-std::string_view glyph_of(char c) {
-  const auto code = static_cast<unsigned char>(c);
-  return code >= 32 && code < 127 ? kGlyphs[code - 32] : kMissing;
+// What is over and under letters, in the same way, but two units are one here: from the middle of a mark 3 to both sides,
+// y = 0 .. 3 over the letter.
+std::string_view mark_glyph(char mark) {
+  switch (mark) {
+    case '`':
+      return "1341";
+    case '\'':
+      return "5321";
+    case '^':
+      return "113351";
+    case 'v':
+      return "133153";
+    case '~':
+      return "11234153";
+    case ':':
+      return "1212|5252";
+    case 'o':
+      return "3123334231";
+    case '-':
+      return "1252";
+    case 'u':
+      return "13214153";
+    case '.':
+      return "3232";
+    case '"':
+      return "3311|6341";
+    case ',':
+      return "3a4c1d";
+    default:
+      return "";
+  }
+}
+
+std::string_view glyph_of(PictureLetter letter) {
+  const auto code = static_cast<unsigned char>(letter.base);
+  const std::string_view glyph = code >= 32 && code < 127 ? kGlyphs[code - 32] : kMissing;
+  const bool dotted = letter.base == 'i' || letter.base == 'j';
+  return dotted && letter.mark != 0 && letter.mark != ',' ? glyph.substr(0, glyph.find('|')) : glyph;
 }
 
 double glyph_width(std::string_view glyph) {
@@ -139,6 +176,13 @@ double unit_y(char c) {
   return c >= 'a' ? -double(c - 'a' + 1) : double(c - '0');
 }
 
+double glyph_height(std::string_view glyph) {
+  double height = 0;
+  for (std::size_t at = 0; at + 1 < glyph.size(); at += glyph[at] == '|' ? 1 : 2)
+    if (glyph[at] != '|') height = std::max(height, unit_y(glyph[at + 1]));
+  return height;
+}
+
 void draw_glyph(Image& image, ScreenPoint at, std::string_view glyph, double unit, double width, Rgb colour) {
   bool pen_down = false;
   ScreenPoint last;
@@ -154,6 +198,25 @@ void draw_glyph(Image& image, ScreenPoint at, std::string_view glyph, double uni
     pen_down = true;
     i += 2;
   }
+}
+
+// The mark of a letter whose glyph starts at `at`.
+void draw_mark(Image& image, ScreenPoint at, PictureLetter letter, double unit, double width, Rgb colour) {
+  const std::string_view glyph = glyph_of(letter);
+  const double wide = glyph_width(glyph), high = glyph_height(glyph);
+  if (letter.mark == '/') {  // across, or of letters with a stem through that
+    const bool across = letter.base == 'o' || letter.base == 'O';
+    const double stem = letter.base == 'd' ? wide : 0;
+    const double left = across ? -0.5 : stem - 1, right = across ? wide + 0.5 : stem + 1.2;
+    const double low = across ? 0 : 0.45 * high, top = across ? high : 0.65 * high;
+    draw_stroke(image, {at.x + left * unit, at.y - low * unit}, {at.x + right * unit, at.y - top * unit},
+                width, colour);
+    return;
+  }
+  const double half = 0.5 * unit;
+  const double over = letter.mark == ',' ? 0 : high + 0.7;
+  draw_glyph(image, {at.x + wide / 2 * unit - 3 * half, at.y - over * unit}, mark_glyph(letter.mark), half,
+             width, colour);
 }
 
 // Distance of p from the segment a b.
@@ -182,15 +245,17 @@ void draw_stroke(Image& image, ScreenPoint from, ScreenPoint to, double width, R
 
 double text_width(std::string_view text, double size) {
   double width = text.empty() ? 0 : -kGap;
-  for (const char c : text) width += glyph_width(glyph_of(c)) + kGap;
+  for (const PictureLetter letter : picture_letters(text)) width += glyph_width(glyph_of(letter)) + kGap;
   return width * size / kUnits;
 }
 
 void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour, double bold) {
-  const double unit = size / kUnits;
-  for (const char c : text) {
-    draw_glyph(image, at, glyph_of(c), unit, bold * kStroke * unit, colour);
-    at.x += unit * (glyph_width(glyph_of(c)) + kGap);
+  const double unit = size / kUnits, width = bold * kStroke * unit;
+  for (const PictureLetter letter : picture_letters(text)) {
+    const std::string_view glyph = glyph_of(letter);
+    draw_glyph(image, at, glyph, unit, width, colour);
+    if (letter.mark != 0) draw_mark(image, at, letter, unit, width, colour);
+    at.x += unit * (glyph_width(glyph) + kGap);
   }
 }
 

@@ -338,6 +338,29 @@ TEST(CornerNormals, KeepEdgesAndSmoothBends) {
   }
 }
 
+// Black pixels of a text.
+int ink_of(const std::string& text) {
+  Image image(60, 60);
+  draw_text(image, {15, 40}, text, 18, {0, 0, 0});
+  int dark = 0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) dark += image.at(x, y).r < 0.5f ? 1 : 0;
+  return dark;
+}
+
+TEST(Text, MarksAreDrawnAndTakeNoWidth) {
+  for (const char* letter :
+       {"\u00E9", "\u00E0", "\u00EA", "\u00EB", "\u0113", "\u0115", "\u0117", "\u0119", "\u011B"}) {
+    EXPECT_GT(ink_of(letter), ink_of("e") + 3) << letter;
+    EXPECT_EQ(text_width(letter, 12), text_width("e", 12)) << letter;
+  }
+  for (const char* letter : {"\u00F5", "\u0151", "\u00F8"})
+    EXPECT_GT(ink_of(letter), ink_of("o") + 3) << letter;
+  EXPECT_GT(ink_of("\u00E5"), ink_of("a") + 3);
+  EXPECT_LT(ink_of("\u0131"), ink_of("i")) << "without its dot";
+  EXPECT_EQ(text_width("\u5F62", 12), text_width("\u0416", 12)) << "a box for each character";
+}
+
 TEST(Text, LettersLeaveInkAndTakeWidth) {
   const std::string all = [] {
     std::string text;
