@@ -36,8 +36,8 @@ struct SubmitOptions {
 
 namespace fs = std::filesystem;
 
-// Where results will be written.  Those folders of it that were missing go again unless it is kept: an empty one tells of
-// results where nothing was submitted.
+// Where results will be written.  Those folders of it that were missing go again unless it is kept: an empty one
+// tells of results where nothing was submitted.
 class OutputFolder {
  public:
   // Before hours of computing, not after: the names that will be written may be too long, or those of files that must

@@ -117,8 +117,8 @@ constexpr double kGap = 1.8;  // between glyphs
 constexpr double kSpaceWidth = 2;
 constexpr double kStroke = 0.72;  // stroke width in grid units
 
-// What is over and under letters, in the same way, but two units are one here: from the middle of a mark 3 to both sides,
-// y = 0 .. 3 over the letter.
+// What is over and under letters, in the same way, but two units are one here: from the middle of a mark 3 to both
+// sides, y = 0 .. 3 over the letter.
 std::string_view mark_glyph(char mark) {
   switch (mark) {
     case '`':

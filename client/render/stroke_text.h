@@ -13,8 +13,9 @@ void draw_stroke(Image& image, ScreenPoint from, ScreenPoint to, double width, R
 /// Width of the text in pixels. @param size height of a capital letter in pixels.
 double text_width(std::string_view text, double size);
 
-/// Draws text with its baseline starting at `at`, in a stroke font of our own: printable ASCII, and what is written by it with
-/// marks, see picture_letters; other characters become a box each. @param bold times as thick strokes as usual.
+/// Draws text with its baseline starting at `at`, in a stroke font of our own: printable ASCII, and what is written
+/// by it with marks, see picture_letters; other characters become a box each. @param bold times as thick strokes as
+/// usual.
 void draw_text(Image& image, ScreenPoint at, std::string_view text, double size, Rgb colour, double bold = 1);
 
 }  // namespace affskel::client
