@@ -44,7 +44,7 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   require_short(submission.name, kMaxName, "name");
   require_short(submission.request_id, kMaxRequestId, "request id");
   v1::SubmitJobHeader header;
-  header.set_name(submission.name.empty() ? usual_name(input.path) : submission.name);
+  header.set_name(submission.name.empty() ? protocol_text(job_name(input.path), kMaxName) : submission.name);
   header.set_priority(submission.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (submission.spacing > 0) {
@@ -100,10 +100,6 @@ std::string size_text(const core::Vec3& size, double longest) {
 }
 
 }  // namespace
-
-std::string usual_name(const std::string& file) {
-  return protocol_text(job_name(file), kMaxName);
-}
 
 void check_spacing(const core::Solid& solid, double spacing, const std::string& path) {
   const core::Vec3 size = solid.bbox_max - solid.bbox_min;

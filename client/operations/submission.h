@@ -15,9 +15,6 @@ namespace affskel::client {
 inline constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 31;
 inline constexpr unsigned kMaxPriority = 9;
 
-/// What a job is called unless its user says: as its file, as far as the protocol has room.
-std::string usual_name(const std::string& file);
-
 /// What is asked of a mesh that is submitted.
 struct Submission {
   double spacing = 0;  ///< mesh units; 0 = by points

@@ -251,7 +251,7 @@ http::Response submit_mesh(WebCall& call) {
   const nlohmann::json body = json_body(call.request);
   const auto mesh = mesh_of(call, text_member(body, "mesh"));
   Submission submission = submission_of(body);
-  if (submission.name.empty()) submission.name = usual_name(mesh->name);
+  if (submission.name.empty()) submission.name = job_name(mesh->name);
   const InputFile input = read_input(mesh->file->path().string());
   check_submission(mesh->solid, input, submission);
   std::optional<MeshSource> source;
