@@ -31,22 +31,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The database of a data directory, of this program's schema, for as long as a command works on it.
+/// A schema of before has the same tokens: bringing it up to date, which cannot be undone, is left to `migrate`.
+/// @throws StoreError kUnusable where it has not.
+void require_tokens(Database& db) {
+  constexpr std::int64_t kColumns = 8;
+  checked_schema(db);
+  if (db.integer("SELECT count(*) FROM pragma_table_info('tokens')") == kColumns) return;
+  throw StoreError(StoreError::Code::kUnusable,
+                   db.file() +
+                       ": has no tokens that this program knows; make a backup, and run"
+                       " affskel-server migrate first");
+}
+
+/// The database of a data directory, held against a server for as long as a command writes to it.
 class TokenDatabase {
  public:
   /// @param make where there is none yet.
   TokenDatabase(const std::string& data_dir, bool make) {
-    if (data_dir_holder(data_dir)) {
-      db_ = std::make_unique<Database>(existing_database_file(data_dir), Database::Mode::kReadWrite);
-      checked_schema(*db_);  // the server has migrated it
-      return;
+    const bool served = data_dir_holder(data_dir).has_value();
+    if (served || !make) existing_database_file(data_dir);
+    if (!served) {
+      umask(0077);  // as the server itself
+      held_.emplace(data_dir);
+      ready_database_file(database_file(held_->path()));
     }
-    if (!make) existing_database_file(data_dir);
-    umask(0077);  // as the server itself
-    held_.emplace(data_dir);
-    db_ = std::make_unique<Database>(ready_database_file(database_file(held_->path())),
-                                     Database::Mode::kReadWrite);
-    migrate(*db_);
+    db_ = std::make_unique<Database>(database_file(data_dir), Database::Mode::kReadWrite);
+    require_tokens(*db_);
   }
 
   Database& operator*() { return *db_; }
@@ -153,9 +163,10 @@ base::ExitCode add_token_command(const Options& options, const Console& console)
 }
 
 base::ExitCode list_tokens_command(const Options& options, const Console& console) {
-  TokenDatabase db(options.data_dir, false);
+  Database db(existing_database_file(options.data_dir), Database::Mode::kReadOnly);
+  require_tokens(db);
   const std::int64_t now = unix_ms();
-  const std::vector<TokenRow> tokens = list_tokens(*db);
+  const std::vector<TokenRow> tokens = list_tokens(db);
   if (console.json()) {
     Json all = Json::array();
     for (const TokenRow& token : tokens) all.push_back(json_of(token, now));

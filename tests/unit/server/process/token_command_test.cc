@@ -11,6 +11,7 @@
 
 #include "access/token.h"
 #include "database/database_file.h"
+#include "database/migrate.h"
 #include "process/data_dir.h"
 #include "process/maintenance.h"
 #include "store_fixture.h"
@@ -150,6 +151,35 @@ TEST_F(TokenCommandTest, FaultsHaveTheirCodes) {
   EXPECT_EQ(run(revoke), 4);
   EXPECT_NE(err_.find("no token 99"), std::string::npos);
   EXPECT_EQ(run(adding("a\nb")), 2);
+}
+
+// There is no way back from a migration, and nobody asked for one.
+TEST_F(TokenCommandTest, AnOlderDatabaseKeepsItsSchema) {
+  std::filesystem::create_directory(data_dir());
+  {
+    Database db(database_file(data_dir()), Database::Mode::kReadWrite);
+    migrate(db, {embedded_migrations().front()});
+  }
+  ASSERT_EQ(run(adding("ada")), 0) << err_;
+  ASSERT_EQ(run(options(Command::kTokenList)), 0) << err_;
+  EXPECT_NE(out_.find("ada"), std::string::npos) << out_;
+  Options revoke = options(Command::kTokenRevoke);
+  revoke.token = 1;
+  ASSERT_EQ(run(revoke), 0) << err_;
+  ASSERT_EQ(run(options(Command::kTokenList)), 0) << err_;
+  EXPECT_NE(out_.find("revoked"), std::string::npos) << out_;
+  Database db(database_file(data_dir()), Database::Mode::kReadOnly);
+  EXPECT_EQ(db.integer("PRAGMA user_version"), 1);
+}
+
+TEST_F(TokenCommandTest, TokensOfAnotherShapeAreRefusedWithAWayOn) {
+  ASSERT_EQ(run(adding("ada")), 0);
+  Database(database_file(data_dir()), Database::Mode::kReadWrite)
+      .execute("ALTER TABLE tokens DROP COLUMN last_used_ms");
+  for (const Command command : {Command::kTokenList, Command::kTokenRevoke}) {
+    EXPECT_EQ(run(options(command)), 3);
+    EXPECT_NE(err_.find("affskel-server migrate"), std::string::npos) << err_;
+  }
 }
 
 }  // namespace
