@@ -47,8 +47,7 @@ std::string describe(sqlite3* db, int code, int cause, const std::string& contex
   }
   if (code == SQLITE_FULL) return "database " + file + ": no room on the disk (space or inodes)";
   if (primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB) {
-    return "database " + file + ": is damaged (" + sqlite3_errmsg(db) + "): stop the server and run" +
-           " affskel-server check --repair, or restore a backup";
+    return "database " + file + ": is damaged (" + sqlite3_errmsg(db) + "): " + kDamagedAdvice;
   }
   return "database " + context + ": " + sqlite3_errmsg(db) + " (code " + std::to_string(code) + ")";
 }

@@ -12,6 +12,10 @@ namespace affskel::server {
 /// with.
 inline constexpr int kPageBytes = 16384;
 
+/// Where the message of a damaged file ends.
+inline constexpr const char* kDamagedAdvice =
+    "stop the server and run affskel-server check --repair, or restore a backup";
+
 /// An error of SQLite itself: a bug, a damaged file or a full disk.
 class SqliteError : public std::runtime_error {
  public:

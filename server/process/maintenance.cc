@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -17,12 +18,21 @@
 #include "database/errors.h"
 #include "database/migrate.h"
 #include "database/sqlite.h"
+#include "database/sqlite_error.h"
 #include "process/console.h"
 #include "process/data_dir.h"
 #include "process/token_command.h"
 
 namespace affskel::server {
 namespace {
+
+/// What a repair leaves, or fails at, is not for another.
+std::string advice_after(bool repair, std::string message) {
+  const std::size_t at = message.find(kDamagedAdvice);
+  if (repair && at != std::string::npos)
+    message.replace(at, std::string_view(kDamagedAdvice).size(), "restore a backup");
+  return message;
+}
 
 /// Returns the number of repairs.
 std::int64_t repair(const Options& options, const Console& console) {
@@ -39,7 +49,9 @@ std::int64_t repair(const Options& options, const Console& console) {
 
 base::ExitCode check_command(const Options& options, const Console& console) {
   const std::int64_t repairs = options.repair ? repair(options, console) : 0;
-  const auto on_fault = [&](const Fault& fault) { console.fault(fault.where + ": " + fault.what); };
+  const auto on_fault = [&](const Fault& fault) {
+    console.fault(fault.where + ": " + advice_after(options.repair, fault.what));
+  };
   const std::string server = data_dir_holder(options.data_dir).value_or("none");
   const CheckResult found = check_database(options.data_dir, on_fault);
   if (found.schema != 0 && found.schema < newest_schema()) {
@@ -205,7 +217,9 @@ int run_maintenance(const Options& options) {
   } catch (const StoreError& error) {
     return fail(code_of(error), error);
   } catch (const SqliteError& error) {
-    return fail(code_of(error), error);
+    const base::ExitCode code = code_of(error);
+    console.error(code, advice_after(options.repair, error.what()));
+    return static_cast<int>(code);
   } catch (const DataDirInUse& error) {
     return fail(base::ExitCode::kNotAllowed, error);
   } catch (const base::OutputError& error) {

@@ -139,6 +139,19 @@ TEST_F(MaintenanceTest, AnEmptyDatabaseIsRefusedAndItsLogLeftAlone) {
   }
 }
 
+TEST_F(MaintenanceTest, WhatARepairFailsAtIsNotForAnother) {
+  store_.reset();
+  fs::resize_file(database(), fs::file_size(database()) / 2);
+  fs::remove(database() + "-wal");
+  Options repair = options(Command::kCheck);
+  EXPECT_NE(run_it(repair).err.find("check --repair, or restore a backup"), std::string::npos);
+  repair.repair = true;
+  const Outcome failed = run_it(repair);
+  EXPECT_NE(failed.exit_code, 0);
+  EXPECT_EQ(failed.err.find("check --repair"), std::string::npos) << failed.err;
+  EXPECT_NE(failed.err.find("restore a backup"), std::string::npos) << failed.err;
+}
+
 TEST_F(MaintenanceTest, AnIgnoredSignalDoesNotEndABackup) {
   const auto handler = signal(SIGHUP, SIG_IGN);
   const Outcome done = run_while_pending(SIGHUP, options(Command::kBackup));
