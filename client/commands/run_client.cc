@@ -66,7 +66,13 @@ std::string with_nearest(const std::string& text, const std::string& word,
   return nearest.empty() ? text : text + "; did you mean " + nearest + "?";
 }
 
-std::string unknown_option(const std::string& word, const std::vector<const CLI::App*>& levels) {
+// Whether it was given behind "--" alone, where no option is one.
+bool behind_options(const std::string& word, const std::vector<std::string>& arguments) {
+  const auto end = std::find(arguments.begin(), arguments.end(), "--");
+  return end != arguments.end() && std::find(arguments.begin(), end, word) == end;
+}
+
+std::string unknown_option(const std::string& word, const std::vector<const CLI::App*>& levels, bool behind) {
   std::vector<std::string> known;
   for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
     for (const CLI::Option* option : (*level)->get_options()) {
@@ -75,6 +81,8 @@ std::string unknown_option(const std::string& word, const std::vector<const CLI:
     }
   }
   const std::string name = word.substr(0, word.find('='));
+  if (behind && std::find(known.begin(), known.end(), name) != known.end())
+    return "options come before --, which ends them: " + name;
   return with_nearest("unknown option " + name, name, known);
 }
 
@@ -135,7 +143,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& end,
   // their order.
   const bool command_first = word != unknown.end() && (word == unknown.begin() || levels.size() > 1);
   if (no_command && command_first) return unknown_command(*word, *levels.back());
-  if (option != unknown.end()) return unknown_option(*option, levels);
+  if (option != unknown.end()) return unknown_option(*option, levels, behind_options(*option, arguments));
   if (end.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
     return unexpected_words(unknown, arguments);
   return no_command ? "no " + kind_below(*levels.back()) + " was given" : plain_mismatch(end.what());

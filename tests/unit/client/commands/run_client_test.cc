@@ -318,6 +318,8 @@ TEST_F(ClientTest, WrongUsageIsTwoAndJsonOnRequest) {
   // What ends the options is none that is unknown.
   EXPECT_NE(run({"submit", "--points", "x", "--", dir_ / "cube.off"}).err.find("--points"),
             std::string::npos);
+  const std::string behind = run({"submit", "--", "-cube.off", "--points", "311"}).err;
+  EXPECT_NE(behind.find("options come before --, which ends them: --points"), std::string::npos) << behind;
   for (const char* spacing : {"5mm", "0.1%%", "100%"}) {
     const std::string said = run({"submit", dir_ / "cube.off", "--spacing", spacing}).err;
     EXPECT_NE(said.find("a number > 0 or a share below 100% as in 1%"), std::string::npos) << said;
