@@ -29,10 +29,10 @@ void run_fetch(Context& context, const FetchOptions& options) {
 void check_options(const CLI::App& fetch) {
   const std::string artifact = fetch.get_option("ARTEFACT")->as<std::string>();
   if (fetch.count("--operator") > 0 && artifact != "divergence") {
-    throw CLI::ValidationError("--operator", "is for the divergence; see skeleton --help");
+    throw CLI::ValidationError("--operator", "is for the divergence");
   }
   if (fetch.count("--threshold") > 0 && artifact != "curve" && artifact != "thickness")
-    throw CLI::ValidationError("--threshold", "is for the curve and the thickness; see skeleton --help");
+    throw CLI::ValidationError("--threshold", "is for the curve and the thickness");
   if (fetch.count("--parts") > 0 && artifact != "field")
     throw CLI::ValidationError("--parts", "is for the field; files of surfaces have parts anyway");
 }

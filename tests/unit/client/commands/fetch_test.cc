@@ -148,7 +148,9 @@ TEST_F(ClientTest, DivergencesComeWithTheirPlaces) {
   EXPECT_EQ(service_.fetches.back().skeleton().operator_(), v1::OPERATOR_SOBEL);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "H.vtkhdf"}).exit_code, 0);
   EXPECT_EQ(tests::read_file(dir_ / "H.vtkhdf").substr(1, 3), "HDF");
-  EXPECT_EQ(run({"fetch", "@last", "mesh", "--operator", "sobel", "-o", dir_ / "m.off"}).exit_code, 2);
+  const Outcome none = run({"fetch", "@last", "mesh", "--operator", "sobel", "-o", dir_ / "m.off"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err.find("--help"), none.err.rfind("--help")) << none.err;
   service_.artifacts[v1::ARTIFACT_KIND_DIVERGENCE].resize(4 * 8);
   EXPECT_EQ(run({"fetch", "@last", "divergence", "-o", dir_ / "short.csv"}).exit_code, 70);
   EXPECT_FALSE(std::filesystem::exists(dir_ / "short.csv"));
