@@ -58,7 +58,9 @@ void add_options(CompletedCommand& command, const CLI::App& app) {
     completed.description = option->get_description();
     completed.takes_value = option->get_items_expected_max() > 0;
     completed.takes_file = wants_file(*option);
-    completed.values = possible_values(*option);
+    // What is behind "=" is the user's.
+    for (const std::string& value : possible_values(*option))
+      completed.values.push_back(value.substr(0, std::min(value.find('='), value.size() - 1) + 1));
     command.options.push_back(std::move(completed));
   }
 }

@@ -44,7 +44,7 @@ void add_repair_option(CLI::App* command, std::string& how, const std::string& w
     }
   };
   command->add_option("--repair", how, what)
-      ->check(CLI::Validator(refuse, "{auto,none,wrap,fill=}", ""))
+      ->check(CLI::Validator(refuse, "{auto,none,wrap,wrap=ALPHA,fill=LENGTH}", ""))
       ->capture_default_str()
       ->type_name("HOW");
 }

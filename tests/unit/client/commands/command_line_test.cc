@@ -254,7 +254,7 @@ TEST(Completions, WorkInBash) {
   EXPECT_EQ(completed_by_bash("affskel-client --server unix:/s sk"), "skeleton ");
   EXPECT_EQ(completed_by_bash("affskel-client submit --re"),
             "--request-id --repair --read-limit --repair-limit ");
-  EXPECT_EQ(completed_by_bash("affskel-client submit --repair ''"), "auto none wrap fill= ");
+  EXPECT_EQ(completed_by_bash("affskel-client submit --repair ''"), "auto none wrap wrap= fill= ");
   EXPECT_EQ(completed_by_bash("affskel-client submit --frame ''"), "axis pca obb affine ");
   EXPECT_EQ(completed_by_bash("affskel-client make t"), "torus tetrahedron ");
   EXPECT_EQ(completed_by_bash("affskel-client make torus --m"), "--major --minor --memory ");

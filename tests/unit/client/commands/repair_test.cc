@@ -67,6 +67,7 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   EXPECT_EQ(run({"repair", dir_ / "open.off", "--repair", "none", "-o", dir_ / "left.off"}).exit_code, 3);
   EXPECT_EQ(run({"repair", dir_ / "cube.off", "--repair", "wrap=500", "-o", dir_ / "wrapped.stl"}).exit_code,
             0);
+  EXPECT_NE(run({"repair", "--help"}).out.find("wrap=ALPHA, fill=LENGTH (default"), std::string::npos);
   for (const char* wrong : {"mend", "fill=", "fill=-1", "wrap=x", "none=3"})
     EXPECT_EQ(run({"repair", dir_ / "cube.off", "--repair", wrong, "-o", dir_ / "w.off"}).exit_code, 2)
         << wrong;
