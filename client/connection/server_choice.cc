@@ -17,6 +17,13 @@ std::string trim(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
+/// In quotes or without: in the server's own configuration they have to be.
+std::string unquoted(const std::string& text) {
+  const bool quoted =
+      text.size() > 1 && text.front() == text.back() && (text.front() == '"' || text.front() == '\'');
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 ServerChoice choice_from(const std::string& text, const std::string& origin, const std::string& file = {},
                          std::uint64_t line = 0) {
   try {
@@ -77,7 +84,7 @@ Config read_config(const std::filesystem::path& file) {
       throw ClientError(ExitCode::kUsage, "expected 'KEY = VALUE', found '" + text + "'", file, number);
     }
     const std::string key = trim(text.substr(0, equals));
-    const std::string value = trim(text.substr(equals + 1));
+    const std::string value = unquoted(trim(text.substr(equals + 1)));
     if (key == "server") {
       if (value.empty()) throw ClientError(ExitCode::kUsage, "no address after '='", file, number);
       config.server = value;

@@ -51,8 +51,16 @@ TEST_F(ServerChoiceTest, MalformedAddressesNameWhereTheyWereRead) {
   }
 }
 
+TEST_F(ServerChoiceTest, ValuesMayStandInQuotes) {
+  write_config("server = \"unix:/run/a b.sock\"\ntoken_file = '/etc/my.token'\n");
+  const ServerChoice choice = choose_server("", environment());
+  EXPECT_EQ(choice.address.path, "/run/a b.sock");
+  EXPECT_EQ(choice.access.token_file, "/etc/my.token");
+}
+
 TEST_F(ServerChoiceTest, ConfigErrorsHaveALine) {
-  for (const char* text : {"\nserver unix:/x\n", "\nservr = unix:/x\n", "\nserver =\n"}) {
+  for (const char* text :
+       {"\nserver unix:/x\n", "\nservr = unix:/x\n", "\nserver =\n", "\nserver = \"\"\n"}) {
     write_config(text);
     try {
       choose_server("", environment());
