@@ -13,6 +13,7 @@
 #include "base/exit_code.h"
 #include "base/regular_file.h"
 #include "base/standard_streams.h"
+#include "process/config_fault.h"
 #include "process/policy_options.h"
 #include "wire/version.h"
 #include "wire/words.h"
@@ -344,6 +345,10 @@ void refuse_server_options(const CLI::App& app) {
   }
 }
 
+CLI::ParseError told_with_place(CLI::App& app, const CLI::ParseError& error) {
+  return CLI::ConfigError(config_fault(app.get_config_ptr()->as<std::string>(), error.what()));
+}
+
 }  // namespace
 
 ParsedOptions parse_options(int argc, char** argv) {
@@ -367,10 +372,9 @@ ParsedOptions parse_options(int argc, char** argv) {
       throw CLI::ValidationError("--report-interval-ms", "must be less than --lease-ms");
     }
   } catch (const CLI::ParseError& error) {
-    if (dynamic_cast<const CLI::ConfigError*>(&error) != nullptr)
-      std::cerr << app.get_config_ptr()->as<std::string>() << ": ";
     std::ostringstream help;
-    const bool asked_for = app.exit(error, help, std::cerr) == 0;
+    const bool of_file = dynamic_cast<const CLI::ConfigError*>(&error) != nullptr;
+    const bool asked_for = app.exit(of_file ? told_with_place(app, error) : error, help, std::cerr) == 0;
     parsed.exit_code =
         static_cast<int>(asked_for ? base::show_help("affskel-server", help.str()) : base::ExitCode::kUsage);
   }

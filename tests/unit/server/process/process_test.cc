@@ -28,7 +28,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-ParsedOptions parse(std::vector<std::string> words) {
+/// @param said gets what goes to stderr.
+ParsedOptions parse(std::vector<std::string> words, std::string* said = nullptr) {
   words.insert(words.begin(), "affskel-server");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -36,7 +37,8 @@ ParsedOptions parse(std::vector<std::string> words) {
   testing::internal::CaptureStderr();
   const ParsedOptions parsed = parse_options(static_cast<int>(argv.size()), argv.data());
   testing::internal::GetCapturedStdout();
-  testing::internal::GetCapturedStderr();
+  const std::string err = testing::internal::GetCapturedStderr();
+  if (said != nullptr) *said = err;
   return parsed;
 }
 
@@ -69,6 +71,21 @@ TEST(OptionsTest, PolicyFromAFileAndTheCommandLine) {
             1'000'000'000);
   EXPECT_EQ(parse({"--data-dir", "here", "--quota", "jobs=1"}).exit_code, 2);
   EXPECT_EQ(parse({"--data-dir", "here", "--owner-order", "fair"}).exit_code, 2);
+}
+
+TEST(OptionsTest, AMisspeltLineOfAFileIsToldWithItsPlace) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "server.toml").string();
+  const auto said_of = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    std::string said;
+    EXPECT_EQ(parse({"--data-dir", "here", "--config", file}, &said).exit_code, 2);
+    return said;
+  };
+  const std::string option = said_of("workers = 2\n# nonsense\n nonsense = 1\n");
+  EXPECT_NE(option.find(file + ": line 3: unknown option 'nonsense'"), std::string::npos) << option;
+  const std::string section = said_of("workers = 2\n[ limits ]\nchords = 1\n");
+  EXPECT_NE(section.find(file + ": line 2: unknown section 'limits'"), std::string::npos) << section;
 }
 
 TEST(OptionsTest, AllGiven) {
