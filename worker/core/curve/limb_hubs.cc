@@ -20,6 +20,7 @@ constexpr double kThick = 1.55;   // times as thick as the limbs
 constexpr double kGrown = 1.1;    // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.45;  // of the ellipsoid with its moments: a network fills less
 constexpr double kPlate = 2;      // times as wide as thick: what is nearest to a line makes no tube
+constexpr double kBar = 3.5;      // times as long as wide: a limb, which grows where it turns a corner
 
 // Of places, each as much.
 struct HubMoments {
@@ -189,13 +190,18 @@ class FindHubs {
     }
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0) result_.of[v] = kNone;
-    return fills(all.count, hub);
+    return fills(all.count, hub) && !is_bar(hub);
   }
 
   // A network of rods is none.
   bool fills(double count, const LimbHub& hub) const {
     const double ball = std::pow(radius_of(count) * kGrown, 3);
     return ball * std::sqrt(determinant(hub.form)) >= kFilled;
+  }
+
+  bool is_bar(const LimbHub& hub) const {
+    const auto steep = symmetric_eigen(hub.form).values;  // one over the squares of the axes
+    return steep[1] > kBar * kBar * steep[2];
   }
 
   // The mean square of a place in a ball, along an axis, is a fifth of the radius', in a cube a twelfth of the edge's.

@@ -150,6 +150,15 @@ TEST(LimbHubs, AreNoNetworks) {
   EXPECT_TRUE(cube.found().hubs.empty());
 }
 
+// A limb grows where it turns a corner: of a bar with thin arms nothing else makes a hub.
+TEST(LimbHubs, AreNoBars) {
+  for (const double length : {6., 8.}) {
+    Cube bar({2, 2, length});
+    bar.go_out(bar.add(bar.middle, 2), kCross, 1.5, 1.5);
+    EXPECT_EQ(bar.found().hubs.size(), length < 3.5 * 2 ? 1U : 0U) << length;
+  }
+}
+
 TEST(LimbHubs, HoldASpur) {
   const Cube cube = cube_with_limb(20, 0.5);
   const LimbHubs found = cube.found();
