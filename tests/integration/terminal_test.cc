@@ -208,7 +208,7 @@ TEST_F(TerminalTest, AWrongWordIsNamedWithTheNearestRightOne) {
   says("c fetch @last field --ouptut x.csv", "unknown option --ouptut; did you mean --output?");
   says("c list --jsn", "unknown option --jsn; did you mean --json?");
   says("c statsu @last", "no command 'statsu'; did you mean status?");
-  says("c make tours -o x.off", "no command 'tours'; did you mean torus?");
+  says("c make tours -o x.off", "no shape 'tours'; did you mean torus?");
   says("c fetch @last feild", "not 'feild'; did you mean field?");
   says("c surface @last --operator rigde", "not 'rigde'; did you mean ridge?");
   const Shown far = run("c frobnicate");
