@@ -11,9 +11,12 @@ import subprocess
 import sys
 import tempfile
 import threading
+import unittest
 from pathlib import Path
 
 import numpy as np
+
+import affskel
 
 PROGRAMS, PROJECT = Path(sys.argv[1]), Path(sys.argv[2])
 CLIENT, SERVER, WORKER = (str(PROGRAMS / f"affskel-{name}") for name in ("client", "server", "worker"))
@@ -126,3 +129,16 @@ class Server:
         self.process.stderr.close()
         if with_signal == signal.SIGTERM:
             assert code == 0, code
+
+
+def serve_module():
+    """For setUpModule: a directory, a server that its environment names, and a client of it, until the module ends."""
+    directory = Directory()
+    unittest.addModuleCleanup(directory.remove)
+    server = Server(directory)
+    unittest.addModuleCleanup(server.end)
+    directory.environment["AFFSKEL_SERVER"] = server.address
+    directory.use_environment(unittest.addModuleCleanup)
+    client = affskel.Client(server.address)
+    unittest.addModuleCleanup(client.close)
+    return directory, server, client

@@ -9,7 +9,7 @@ import numpy as np
 
 import affskel
 
-from lab import Directory, Server, assert_same
+from lab import assert_same, serve_module
 
 try:
     import vtkmodules
@@ -19,14 +19,7 @@ except ImportError:
 
 def setUpModule():
     global directory, client, body
-    directory = Directory()
-    unittest.addModuleCleanup(directory.remove)
-    server = Server(directory)
-    unittest.addModuleCleanup(server.end)
-    directory.environment["AFFSKEL_SERVER"] = server.address
-    directory.use_environment(unittest.addModuleCleanup)
-    client = affskel.Client(server.address)
-    unittest.addModuleCleanup(client.close)
+    directory, _, client = serve_module()
     body = client.submit(directory.make("body", "--triangles", 500), spacing=300).wait()
 
 

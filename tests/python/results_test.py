@@ -11,7 +11,7 @@ import numpy as np
 
 import affskel
 
-from lab import Directory, Server, assert_same
+from lab import assert_same, serve_module
 
 try:
     import vtkmodules
@@ -21,15 +21,8 @@ except ImportError:
 
 
 def setUpModule():
-    global directory, server, client, body, sheared, box
-    directory = Directory()
-    unittest.addModuleCleanup(directory.remove)
-    server = Server(directory)
-    unittest.addModuleCleanup(server.end)
-    directory.environment["AFFSKEL_SERVER"] = server.address
-    directory.use_environment(unittest.addModuleCleanup)
-    client = affskel.Client(server.address)
-    unittest.addModuleCleanup(client.close)
+    global directory, client, body, sheared, box
+    directory, _, client = serve_module()
     # The body, in its own axes and in a sheared lattice; a bar whose field is known.
     body = client.submit(directory.make("body", "--triangles", 500), spacing=300).wait()
     sheared = client.submit(directory / "body.off", points=2000, frame="affine", operator="chords").wait()
