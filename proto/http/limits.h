@@ -17,7 +17,8 @@ struct PlaceLimits {
   std::size_t of_owner = 32;  ///< of one owner that is known
   /// For so long a connection that does nothing counts as one that is about to.
   std::chrono::milliseconds grace{500};
-  /// Over TLS, so long a stranger keeps a place at least: to be greeted and heard.  Who comes meanwhile waits.
+  /// So long a stranger keeps a place at least: to be greeted and heard across a slow network.  Who comes
+  /// meanwhile waits.
   std::chrono::milliseconds stay{250};
 };
 

@@ -9,7 +9,7 @@ namespace {
 namespace ip = boost::asio::ip;
 
 // What an entry is when a place is needed, the first to go first.
-enum Rank { kSilent, kIdle, kBusy, kWorking };
+enum Rank { kSilent, kIdle, kAnswered, kBusy, kWorking };
 
 }  // namespace
 
@@ -33,7 +33,10 @@ std::size_t Places::size() const {
 
 int Places::rank(const Entry& entry) const {
   if (entry.stage == Stage::kWork) return kWorking;
-  if (entry.stage != Stage::kIdle || now_() - entry.since <= limits_.grace) return kBusy;
+  if (entry.stage == Stage::kTransfer) return kBusy;
+  // What was answered may close at any time, and its peer asks again by another (RFC 9112, section 9.3.1); to a
+  // newcomer it would look like a service that is broken.
+  if (now_() - entry.since <= limits_.grace) return entry.used ? kAnswered : kBusy;
   return entry.used ? kIdle : kSilent;
 }
 
@@ -68,7 +71,9 @@ Places::Clock::duration Places::pause() {
 
 std::unique_ptr<Places::Place> Places::take(const std::string& peer, std::function<void()> close) {
   const Choice neighbour = [&](const Entry& entry) { return entry.owner.empty() && entry.peer == peer; };
-  const Choice known_idle = [&](const Entry& entry) { return !entry.owner.empty() && rank(entry) < kBusy; };
+  const Choice known_idle = [&](const Entry& entry) {
+    return !entry.owner.empty() && rank(entry) < kAnswered;
+  };
   const std::size_t neighbours = count(neighbour);
   const bool alone = neighbours == size();
   if (!alone && neighbours >= std::max<std::size_t>(1, limits_.connections / 2) && !close_one(neighbour))
@@ -89,7 +94,7 @@ void Places::Place::begin(Stage stage) {
 
 bool Places::Place::belongs_to(const std::string& owner) {
   const auto idle_of_owner = [&](const Entry& entry) {
-    return &entry != &*entry_ && entry.owner == owner && places_.rank(entry) < kBusy;
+    return &entry != &*entry_ && entry.owner == owner && places_.rank(entry) < kAnswered;
   };
   const auto of_owner = [&](const Entry& entry) { return &entry != &*entry_ && entry.owner == owner; };
   if (!owner.empty() && places_.count(of_owner) >= places_.limits_.of_owner &&

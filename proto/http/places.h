@@ -16,10 +16,11 @@ namespace affskel::http {
 std::string peer_key(const boost::asio::ip::address& address);
 
 /// All connections of a server: whose they are, and which of them do nothing.  A newcomer for whom there is
-/// no room takes the place of another.  Those of known owners go last.  Of the others first go those
-/// that never made a request, then those idle for longest, then those whose request or answer is on its way
-/// for longest, and at last those whose answer has been waited for for longest.  Strangers at one address
-/// have at most half of the places while others are connected.  Not thread-safe.
+/// no room takes the place of another.  Those of known owners go last.  Of the others first go those that
+/// never made a request, then those idle for longest, then those just answered, then those that have just
+/// come or whose request or answer is on its way, for longest, and at last those whose answer has been
+/// waited for for longest.  Strangers at one address have at most half of the places while others are
+/// connected.  Not thread-safe.
 class Places {
  public:
   using Clock = std::chrono::steady_clock;

@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -26,6 +27,8 @@ using boost::system::error_code;
 
 // Without descriptors, so much time for connections to end.
 constexpr std::chrono::milliseconds kPause{100};
+// Between looks for a place: who has just come mostly is heard, and keeps it, long before the time for that is over.
+constexpr std::chrono::milliseconds kHearing{2};
 
 // nohup and shells that start in the background have their process ignore some signals: it keeps that.
 bool is_ignored(int signal_number) {
@@ -93,10 +96,8 @@ class Server::Impl {
   asio::awaitable<void> accept() {
     asio::steady_timer pause(io_);
     for (;;) {
-      // Without TLS a newcomer is heard before many others come.
-      const Places::Clock::duration wait = tls_ ? places_.pause() : Places::Clock::duration::zero();
-      if (wait > Places::Clock::duration::zero()) {
-        pause.expires_after(wait);
+      for (auto wait = places_.pause(); wait > Places::Clock::duration::zero(); wait = places_.pause()) {
+        pause.expires_after(std::min<Places::Clock::duration>(wait, kHearing));
         co_await pause.async_wait(use_awaitable);
       }
       error_code error;

@@ -28,7 +28,8 @@ http::Response text(int status, const char* type, std::string body) {
 
 http::Limits limits_of(const EndpointOptions& options) {
   http::Limits limits;
-  limits.places = {.connections = options.connections, .for_known = 0};
+  // Who scrapes is near, and heard soon; with these few places others would wait for long.
+  limits.places = {.connections = options.connections, .for_known = 0, .stay = std::chrono::milliseconds(50)};
   // Of each kind all connections may wait, and as many whose place has just gone to others and that leave in a
   // moment: every peer is answered.
   limits.waiting = limits.waiting_of_one = 2 * options.connections;

@@ -11,8 +11,10 @@ namespace {
 
 constexpr Milliseconds kProcessCall{5000};
 
+/// The command line of the owner of all other jobs, so that what it submits is seen by way of the proxy, too.
 std::vector<std::string> client(const Scene& scene, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {scene.stage.programs().client, "--server", scene.stage.address()});
+  arguments.insert(arguments.begin(), {scene.stage.programs().client, "--server", scene.stage.address(),
+                                       "--token-file", scene.stage.access_of(kClientOwner).token_file});
   return arguments;
 }
 

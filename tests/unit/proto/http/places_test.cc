@@ -70,6 +70,20 @@ TEST(Places, WhoHasJustComeIsNotSilentYet) {
   EXPECT_EQ(room.gone, (std::vector<std::size_t>{0, 1}));
 }
 
+TEST(Places, WhoWasJustAnsweredGoesBeforeWhoHasJustCome) {
+  Room room(four());
+  room.come("new");
+  for (const char* peer : {"b", "c"}) {
+    room.now += milliseconds(20);
+    room.come(peer);
+    room.taken.back()->transfers();
+    room.taken.back()->idles();
+  }
+  EXPECT_TRUE(room.come("d"));
+  EXPECT_TRUE(room.come("e"));
+  EXPECT_EQ(room.gone, (std::vector<std::size_t>{1, 2})) << "though the first came before them";
+}
+
 TEST(Places, WhoHasJustComeIsHeardBeforeTheNextCome) {
   PlaceLimits limits = four();
   limits.stay = milliseconds(250);
