@@ -53,6 +53,7 @@ async def send(writer, piece):
         raise ConnectionResetError
     writer.write(piece)
     await writer.drain()
+    await asyncio.sleep(0)  # the others' turn: over TLS a connection that the peer has ended always has room for more
 
 
 async def flood(writer, piece):
