@@ -46,6 +46,26 @@ constexpr double kOffAxis = 0.8;
 // A square goes with the front in the direction of the front: along a diagonal of space that advances 0.58 along an axis.
 constexpr double kOnwards = 0.6;
 
+// Depths grow by twice this over the two spacings across a sheet, or it is no sheet.
+constexpr double kSheet = 0.3;
+
+// When a front of unit speed on a sheet leaves a square that it enters by one side at a and by one beside that at b:
+// |grad T| = 1 along the sheet, by differences (Sethian, A fast marching level set method, 1996).  u, v: what the sheet's
+// normal has along the ways that a and b lead in; all 0 where there is no sheet.
+double front_time(double a, double b, double u, double v) {
+  const double A = 1 - v * v, B = u * v, C = 1 - u * u;  // of (T - a)^2, 2 (T - a)(T - b), (T - b)^2
+  const double later = std::max(a, b), p = later - a, q = later - b;
+  // With t = T - later.
+  const double square = A + 2 * B + C, half = A * p + B * (p + q) + C * q;
+  const double rest = A * p * p + 2 * B * p * q + C * q * q - (1 - u * u - v * v);
+  const double root = half * half - square * rest;
+  const double from_beside = std::max(a, b + std::sqrt(1 - v * v));
+  if (square <= 0 || root < 0) return from_beside;
+  const double t = (std::sqrt(root) - half) / square;
+  const bool from_both = t >= 0 && A * (t + p) + B * (t + q) >= 0 && B * (t + p) + C * (t + q) >= 0;
+  return from_both ? std::min(later + t, from_beside) : from_beside;
+}
+
 class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
@@ -68,7 +88,8 @@ class Thinning {
     return result;
   }
 
-  double time(Cell cell, Cell coface, double now) const {
+  double time(Cell cell, Cell coface, double now) {
+    if (DualComplex::dimension(coface) == 2) reached_[cell] = std::abs(reached_[cell]);
     if (DualComplex::dimension(coface) < 3) return now + (is_passed(cell, coface) ? 0 : 1);
     return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
   }
@@ -80,8 +101,7 @@ class Thinning {
     });
   }
 
-  void bared(Cell cell, double now) {
-    if (DualComplex::dimension(cell) == 1) birth_[cell] = static_cast<float>(now);
+  void bared(Cell cell, double) {
     if (!cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
   }
 
@@ -94,11 +114,15 @@ class Thinning {
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
   void removed(Cell vertex, Cell edge, double now) {
-    if (DualComplex::dimension(edge) != 1) return;
-    const auto birth = static_cast<double>(birth_[edge]);
+    if (DualComplex::dimension(edge) != 1) return pass(vertex, edge);
+    const double birth = std::abs(static_cast<double>(reached_[edge]));
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
+    const double before = line.length();
     const Cell end = line.go(complex_, edge, vertex, now);
+    const double step = is_passed(vertex, edge) ? 0 : line.length() - before;
+    const double eaten = std::max(static_cast<double>(bared_at_[vertex]), birth) + step;
+    bared_at_[end] = std::max(bared_at_[end], static_cast<float>(eaten));
     const double fall = kSteep * line.length();
     if (!line.begun && radius_at(end) - fall > line.rise) {
       line.tip.vertex = end;
@@ -115,7 +139,7 @@ class Thinning {
       line.tip_at = line.length();
       line.lead = birth - fall;
     } else {
-      const double way = std::min(line.length() - line.tip_at, now - birth);
+      const double way = std::min(line.length() - line.tip_at, eaten - birth);
       line.tip.length = std::max(line.tip.length, way);
       line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
       line.begun = line.begun || way >= std::max(kBegun * (birth - 1), kMinLength);
@@ -134,6 +158,63 @@ class Thinning {
       slope[axis] = rise / static_cast<float>(std::max(1, (lower != kNone) + (upper != kNone)));
     }
     return slope;
+  }
+
+  // The front goes on over a cube or a square, and reaches what bounds it.
+  void pass(Cell cell, Cell coface) {
+    if (DualComplex::dimension(coface) == 3) {
+      const double when = static_cast<double>(depth_[DualComplex::cube_of(coface)]);
+      complex_.for_each_face(cell, [&](Cell edge) { reach(edge, when); });
+      return;
+    }
+    const double when = crossed(cell, coface);
+    complex_.for_each_face(coface, [&](Cell edge) { reach(edge, when); });
+    complex_.for_each_face(cell, [&](Cell vertex) {
+      bared_at_[vertex] = std::max(bared_at_[vertex], static_cast<float>(when));
+    });
+  }
+
+  // Negative until the front stands there.
+  void reach(Cell edge, double when) {
+    reached_[edge] = -std::max(std::abs(reached_[edge]), static_cast<float>(when));
+  }
+
+  // When the front that stands at an edge of a square has crossed that.
+  double crossed(Cell edge, Cell square) {
+    const double before = std::abs(static_cast<double>(reached_[edge]));
+    if (is_passed(edge, square)) return before;
+    const std::uint32_t cube = DualComplex::cube_of(square), place = DualComplex::place_of(square);
+    const auto side = [&](std::size_t axis, bool upper) {
+      const std::uint32_t weight = DualComplex::kWeight[axis];
+      return complex_.cell(cube, upper ? place + weight : place - weight);
+    };
+    std::size_t across = 0;
+    while (DualComplex::digit(place, across) == 1) ++across;
+    std::size_t along = (across + 1) % 3, beside = (across + 2) % 3;
+    if (edge != side(along, false) && edge != side(along, true)) std::swap(along, beside);
+    const Vec3 n = sheet_normal(square, across);
+    double best = before + std::sqrt(1 - n[along] * n[along]);
+    for (const bool upper : {false, true}) {
+      const auto since = static_cast<double>(reached_[side(beside, upper)]);
+      if (since <= 0 || since > best) continue;
+      const double sign = (edge == side(along, upper)) ? 1 : -1;
+      best = std::min(best, front_time(before, since, n[along], sign * n[beside]));
+    }
+    return best;
+  }
+
+  // Across the sheet that a square is of: from one side of it to the other the depth's slope turns.  0 where it is of none.
+  Vec3 sheet_normal(Cell square, std::size_t across) const {
+    Vec3 n;
+    for (const auto& [cube, place] : complex_.star(square)) {
+      const std::uint32_t digit = DualComplex::digit(place, across);
+      const double sign = digit == 0 ? 1 : -1;
+      const std::uint32_t behind = complex_.neighbour(cube, across, 2 - digit);
+      for (const std::uint32_t of : {cube, behind == kNone ? cube : behind})
+        for (std::size_t axis = 0; axis < 3; ++axis) n[axis] += sign * static_cast<double>(slopes_[of][axis]);
+    }
+    const double length = norm(n);
+    return length > kSheet ? (1 / length) * n : Vec3{};
   }
 
   // Whether what is left of the cubes about a cell lies off the medial axis, where the front has passed already.  A step
@@ -318,8 +399,9 @@ class Thinning {
   std::deque<Line> lines_;  // under way, and places that are free
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
-  std::vector<std::pair<std::uint32_t, LimbTip>> tips_;                 // by which line
-  CellValues<float> birth_{complex_, 1, 0};                             // of lone edges
+  std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line
+  CellValues<float> reached_{complex_, 1, 0};            // when a front did
+  CellValues<float> bared_at_{complex_, 0, 0};           // when squares and edges at a vertex went
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };
 
