@@ -49,6 +49,11 @@ constexpr double kOnwards = 0.6;
 // Depths grow by twice this over the two spacings across a sheet, or it is no sheet.
 constexpr double kSheet = 0.3;
 
+// How far a sheet's normal lets one get along it by a step in a direction, of which the normal has so much.
+double advance(double normal) {
+  return std::sqrt(std::max(0.0, 1 - normal * normal));
+}
+
 // When a front of unit speed on a sheet leaves a square that it enters by one side at a and by one beside that at b:
 // |grad T| = 1 along the sheet, by differences (Sethian, A fast marching level set method, 1996).  u, v: what the sheet's
 // normal has along the ways that a and b lead in; all 0 where there is no sheet.
@@ -59,7 +64,7 @@ double front_time(double a, double b, double u, double v) {
   const double square = A + 2 * B + C, half = A * p + B * (p + q) + C * q;
   const double rest = A * p * p + 2 * B * p * q + C * q * q - (1 - u * u - v * v);
   const double root = half * half - square * rest;
-  const double from_beside = std::max(a, b + std::sqrt(1 - v * v));
+  const double from_beside = std::max(a, b + advance(v));
   if (square <= 0 || root < 0) return from_beside;
   const double t = (std::sqrt(root) - half) / square;
   const bool from_both = t >= 0 && A * (t + p) + B * (t + q) >= 0 && B * (t + p) + C * (t + q) >= 0;
@@ -89,7 +94,7 @@ class Thinning {
   }
 
   double time(Cell cell, Cell coface, double now) {
-    if (DualComplex::dimension(coface) == 2) reached_[cell] = std::abs(reached_[cell]);
+    if (DualComplex::dimension(coface) == 2) fronts_.push_back(cell);
     if (DualComplex::dimension(coface) < 3) return now + (is_passed(cell, coface) ? 0 : 1);
     return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
   }
@@ -103,6 +108,12 @@ class Thinning {
 
   void bared(Cell cell, double) {
     if (!cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
+  }
+
+  // Only now: of what a wave removes nothing comes first.
+  void wave_ends() {
+    for (const Cell edge : fronts_) reached_[edge] = std::abs(reached_[edge]);
+    fronts_.clear();
   }
 
   std::optional<Cell> next_cut() {
@@ -193,7 +204,7 @@ class Thinning {
     std::size_t along = (across + 1) % 3, beside = (across + 2) % 3;
     if (edge != side(along, false) && edge != side(along, true)) std::swap(along, beside);
     const Vec3 n = sheet_normal(square, across);
-    double best = before + std::sqrt(1 - n[along] * n[along]);
+    double best = before + advance(n[along]);
     for (const bool upper : {false, true}) {
       const auto since = static_cast<double>(reached_[side(beside, upper)]);
       if (since <= 0 || since > best) continue;
@@ -400,7 +411,8 @@ class Thinning {
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
   std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line
-  CellValues<float> reached_{complex_, 1, 0};            // when a front did
+  CellValues<float> reached_{complex_, 1, 0};            // when the front did
+  std::vector<Cell> fronts_;                             // where it stands since this wave
   CellValues<float> bared_at_{complex_, 0, 0};           // when squares and edges at a vertex went
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };
