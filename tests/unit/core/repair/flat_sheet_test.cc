@@ -11,17 +11,24 @@
 namespace affskel::core {
 namespace {
 
-TEST(FlatSheet, IsRefusedAndAWrapOfIt) {
+std::string refusal(const Mesh& sheet, const RepairOptions& options) {
+  try {
+    repair_mesh(sheet, options);
+  } catch (const CoreError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+TEST(FlatSheet, IsRefusedWithFillingsAndAWrapOfIt) {
   // Tilted, and rounded as in a file of single precision.
   Mesh sheet{{{0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.7}, {1, 1, 1}}, {{0, 1, 2}, {1, 3, 2}}};
   for (Vec3& p : sheet.points) p.z = static_cast<float>(p.z);
-  for (const RepairKind kind : {RepairKind::kMend, RepairKind::kWrap}) {
-    try {
-      repair_mesh(sheet, {.kind = kind});
-      ADD_FAILURE() << "not refused";
-    } catch (const CoreError& error) {
-      EXPECT_NE(std::string(error.what()).find("open sheet and flat"), std::string::npos) << error.what();
-    }
+  for (const RepairOptions& options :
+       {RepairOptions{}, {.kind = RepairKind::kWrap}, {.longest_hole = 0.1}, {.longest_hole = 9}}) {
+    const std::string said = refusal(sheet, options);
+    EXPECT_NE(said.find("open sheet and flat"), std::string::npos) << said;
+    EXPECT_EQ(said.find("alpha"), std::string::npos) << "no wrap of it is of use: " << said;
   }
   sheet.points[3].z = 1.1;
   EXPECT_NO_THROW(repair_mesh(sheet)) << "bent";

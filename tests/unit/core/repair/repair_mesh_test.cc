@@ -299,9 +299,9 @@ TEST(RepairMesh, DropsFlapsThatHangOnAVertex) {
 
 TEST(RepairMesh, WhatIsClosedAndHoldsNothingIsLeft) {
   Mesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  const RepairedMesh repaired = repair_mesh(mesh, {.longest_hole = 10});
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}};
+  const RepairedMesh repaired = repair_mesh(mesh);
   EXPECT_NE(repaired.left, "");
   EXPECT_EQ(repaired.volume, 0);
 }
