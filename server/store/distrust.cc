@@ -20,7 +20,7 @@ constexpr std::size_t kShortestPrefix = 6;
 
 std::vector<Giver> named(Database& db, const JobRow& job, const std::string& who) {
   std::vector<Giver> of_host, of_prefix;
-  for (const v1::Giver& giver : givers_of(db, job.erosion_id)) {
+  for (const v1::Giver& giver : givers_of(db, job)) {
     if (giver.worker() == who) return {Giver{giver.worker(), giver.host()}};
     if (giver.host() == who) of_host.push_back({giver.worker(), giver.host()});
     if (who.size() >= kShortestPrefix && giver.worker().starts_with(who)) {

@@ -96,21 +96,26 @@ void note_given(Database& db, const JobRow& job, const Giver& giver, const std::
   for (const Range& range : joined(std::move(all))) add_given(db, job.erosion_id, giver, range);
 }
 
-std::vector<v1::Giver> givers_of(Database& db, std::int64_t erosion_id) {
+std::vector<v1::Giver> givers_of(Database& db, const JobRow& job) {
+  std::map<std::string, std::int64_t> directions;
+  for (const GivenPart& part : given_parts(db, job.erosion_id, job.directions)) {
+    if (part.givers.empty()) continue;
+    std::int64_t& count = directions[part.givers.begin()->worker];
+    for (const Range& range : part.ranges) count += range.end - range.begin;
+  }
   Statement row = db.query(
-      "SELECT worker, max(host), sum(directions), sum(points) FROM"
-      " (SELECT worker, host, end_position - first_position AS directions, 0 AS points FROM given_ranges"
-      "  WHERE erosion_id = ?1 UNION ALL"
-      "  SELECT worker, host, 0, points FROM refined_givers WHERE erosion_id = ?1)"
+      "SELECT worker, max(host), sum(points) FROM"
+      " (SELECT worker, host, 0 AS points FROM given_ranges WHERE erosion_id = ?1 UNION ALL"
+      "  SELECT worker, host, points FROM refined_givers WHERE erosion_id = ?1)"
       " GROUP BY worker ORDER BY worker",
-      erosion_id);
+      job.erosion_id);
   std::vector<v1::Giver> givers;
   while (row.step()) {
     Columns columns(row);
     v1::Giver& giver = givers.emplace_back();
     giver.set_worker(columns.text());
     giver.set_host(columns.text());
-    giver.set_directions(columns.natural());
+    giver.set_directions(static_cast<std::uint64_t>(directions[giver.worker()]));
     giver.set_points(columns.natural());
   }
   return givers;

@@ -36,7 +36,7 @@ v1::ListJobEventsResponse Store::events(const JobRef& job_ref, std::int64_t afte
   return read([&](Database& db) {
     const JobRow job = get_job(db, resolve_job(db, job_ref));
     v1::ListJobEventsResponse events = job_events(db, job.id, after);
-    for (v1::Giver& giver : givers_of(db, job.erosion_id)) *events.add_givers() = std::move(giver);
+    for (v1::Giver& giver : givers_of(db, job)) *events.add_givers() = std::move(giver);
     return events;
   });
 }

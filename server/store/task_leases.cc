@@ -48,13 +48,16 @@ double rate_of(const Tx& tx, const TaskRow& task) {
 }
 
 /// Directions that were probably computed and never reported: the rate over the time since the last report
-/// or the grant, but no longer than the interval at which the worker would have reported.
+/// or the grant, but no longer than the interval at which the worker would have reported, and no more than are left.
 double lost_directions(const Tx& tx, const TaskRow& task) {
   if (task.kind != v1::TASK_KIND_ERODE) return 0;
   const std::int64_t heard = task.reported_ms.value_or(task.granted_ms);
   const std::int64_t silence =
       std::clamp<std::int64_t>(tx.lease_ms - heard, 0, tx.options.report_interval_ms);
-  return rate_of(tx, task) * static_cast<double>(silence);
+  double left = 0;
+  for (const Range& range : left_of_block(tx.db, get_job(tx.db, task.job_id), task))
+    left += static_cast<double>(range.end - range.begin);
+  return std::min(left, rate_of(tx, task) * static_cast<double>(silence));
 }
 
 /// Finishes a block of which nothing is left.

@@ -348,17 +348,17 @@ TEST_F(LeaseTest, EstimatesWhatALossCost) {
   prepare(4, 64);
   const v1::Lease block = lease();
   clock_.advance(1000);
-  report(block, 0, 8);  // 8 directions a second
+  report(block, 0, 4);  // 4 directions a second
   clock_.advance(500);
   store_->release_worker("test-host", 4711);
-  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 4.0);
+  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 2.0);
 
   const v1::Lease next = lease();
   clock_.advance(1000);
-  report(next, 8, 16);
+  report(next, 4, 8);
   clock_.advance(options_.lease_ms + 1);  // it would have reported after one interval
   store_->expire_leases();
-  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 12.0);
+  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 6.0);
 
   lease();
   clock_.advance(options_.lease_ms + 1);  // never reported: the job's own rate since its start
@@ -366,7 +366,19 @@ TEST_F(LeaseTest, EstimatesWhatALossCost) {
   const double elapsed =
       static_cast<double>(clock_.wall_ms()) - static_cast<double>(store_->job(job.id()).started_ms());
   EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(),
-                   12.0 + 16.0 / elapsed * static_cast<double>(options_.report_interval_ms));
+                   6.0 + 8.0 / elapsed * static_cast<double>(options_.report_interval_ms));
+}
+
+TEST_F(LeaseTest, ALossCostsNoMoreThanWasLeased) {
+  const v1::Job job = submit();
+  prepare(4, 64);
+  const v1::Lease block = lease();
+  const std::uint64_t end = block.positions(0).end();
+  clock_.advance(10);
+  report(block, 0, end - 2);
+  clock_.advance(options_.report_interval_ms);  // enough for the whole job
+  store_->release_worker("test-host", 4711);
+  EXPECT_DOUBLE_EQ(store_->job(job.id()).counters().directions_lost_estimate(), 2.0);
 }
 
 TEST_F(LeaseTest, LeasesSurviveARestart) {

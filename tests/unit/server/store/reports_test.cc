@@ -405,5 +405,22 @@ TEST_F(ReportTest, SurvivesARestartMidway) {
   EXPECT_EQ(field(job.id()), expected_field(5000, 40));
 }
 
+// A worker tells values of directions that it has not finished, and another computes these again.
+TEST_F(ReportTest, WhatSeveralToldOfCountsOnce) {
+  const v1::Job job = submit();
+  prepare(4, 32);
+  const v1::Lease block = lease("worker-b");
+  v1::PositionRange done;
+  done.set_end(3);
+  report(block, {done}, made_up_records(block.job(), 0, 5), false);
+  store_->give_back(block.token());
+  while (store_->job(job.id()).directions_done() < 32) finish_block(lease("worker-a"));
+  std::uint64_t sum = 0;
+  const auto givers = store_->events(job.id(), 0).givers();
+  for (const v1::Giver& giver : givers) sum += giver.directions();
+  EXPECT_EQ(givers.size(), 2);
+  EXPECT_EQ(sum, 32U);
+}
+
 }  // namespace
 }  // namespace affskel::server
