@@ -14,7 +14,13 @@ struct ResumeOptions {
 };
 
 void run_resume(Context& context, const ResumeOptions& options) {
-  show_state(context.console(), context.session().resume(options.job, options.distrust));
+  const v1::Job job = context.session().resume(options.job, options.distrust);
+  if (!options.distrust.empty()) {
+    context.console().note(
+        "no more work goes there: to a worker under its id, to a host's until the server is started anew, and workers of the"
+        " server's own stay away until then; look after the machine before");
+  }
+  show_state(context.console(), job);
 }
 
 }  // namespace
@@ -30,7 +36,8 @@ void add_resume(CommandLine& line) {
       ->add_option(
           "--distrust", options->distrust,
           "Have what this worker (or all workers of this host) gave computed again by others, in whatever"
-          " state the job is, and give it no more work; for administrators, see verify")
+          " state the job is, and give it no more work (a host's workers: until the server is started anew); for"
+          " administrators, see verify")
       ->check(non_empty())
       ->check(utf8_text())
       ->type_name("WORKER");

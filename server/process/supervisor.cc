@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/exit_code.h"
 #include "base/find_program.h"
 #include "base/logfmt.h"
 
@@ -81,7 +82,7 @@ void Supervisor::tick() {
   reap();
   const Time now = std::chrono::steady_clock::now();
   for (Slot& slot : slots_) {
-    if (!terminating_ && slot.pid == 0 && slot.due <= now) start(slot);
+    if (!terminating_ && !slot.barred && slot.pid == 0 && slot.due <= now) start(slot);
   }
 }
 
@@ -123,8 +124,15 @@ void Supervisor::ended(Slot& slot) {
     slot.delay = std::clamp(slot.delay * 2, options_.first_delay, options_.last_delay);
   }
   slot.due = now + slot.delay;
+  slot.barred = WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(base::ExitCode::kNotAllowed);
   if (terminating_) {
     spdlog::info(base::logfmt("worker_ended", {{"pid", pid}, describe(status)}));
+  } else if (slot.barred) {
+    spdlog::error(base::logfmt("worker_ended", {{"pid", pid},
+                                                describe(status),
+                                                {"message",
+                                                 "may not work; none is started in its place until the"
+                                                 " server is started anew"}}));
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     spdlog::error(base::logfmt("worker_ended", {{"pid", pid},
                                                 {"restart_ms", slot.delay.count()},

@@ -18,7 +18,8 @@ struct SupervisorOptions {
   std::chrono::milliseconds healthy{30000};     ///< a worker that lived this long starts again without delay
 };
 
-/// Keeps a number of child processes running.  For one thread only, which must live as long as the
+/// Keeps a number of child processes running, but for those that end with base::ExitCode::kNotAllowed: an administrator
+/// distrusts them, and another on the same machine would be no better.  For one thread only, which must live as long as the
 /// children shall: they get SIGTERM when the thread that started them ends, however it ends.
 class Supervisor {
  public:
@@ -53,6 +54,7 @@ class Supervisor {
     Time started;
     Time due;  // when to start next
     std::chrono::milliseconds delay{0};
+    bool barred = false;  // its worker may not work, nor may another
   };
 
   void reap();

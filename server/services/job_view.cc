@@ -135,9 +135,9 @@ void JobView::add_reasons(std::vector<v1::Job>& jobs) const {
 
 void JobView::add_reason(v1::Verification& verification) const {
   std::vector<v1::WorkerInfo> workers = registry_.list();
-  const std::set<std::string> distrusted = store_.distrusted_workers();
+  const std::set<std::string> distrusted = store_.distrusted();
   std::erase_if(workers, [&](const v1::WorkerInfo& worker) {
-    return worker.silent() || distrusted.contains(worker.id());
+    return worker.silent() || distrusted.contains(worker.id()) || distrusted.contains(worker.host());
   });
   if (!verification.finished() && workers.empty()) {
     return verification.set_waiting_reason("no worker is connected");

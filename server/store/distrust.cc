@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/logfmt.h"
 #include "base/number_text.h"
 #include "base/quoted.h"
 #include "database/errors.h"
@@ -18,7 +19,8 @@ namespace {
 
 constexpr std::size_t kShortestPrefix = 6;
 
-std::vector<Giver> named(Database& db, const JobRow& job, const std::string& who) {
+/// @param is_host becomes true where `who` is one.
+std::vector<Giver> named(Database& db, const JobRow& job, const std::string& who, bool& is_host) {
   std::vector<Giver> of_host, of_prefix;
   for (const v1::Giver& giver : givers_of(db, job)) {
     if (giver.worker() == who) return {Giver{giver.worker(), giver.host()}};
@@ -27,7 +29,8 @@ std::vector<Giver> named(Database& db, const JobRow& job, const std::string& who
       of_prefix.push_back({giver.worker(), giver.host()});
     }
   }
-  if (!of_host.empty()) return of_host;
+  is_host = !of_host.empty();
+  if (is_host) return of_host;
   if (of_prefix.size() > 1) {
     throw StoreError(StoreError::Code::kInvalid,
                      "worker " + base::quoted(who) + ": more than one worker's id begins so");
@@ -57,13 +60,15 @@ void undo(Database& db, std::int64_t erosion_id, const std::vector<Range>& given
 }
 
 /// Its leases on other jobs end, too; the tasks go to others.
+/// @param giver a host's has the host's name for its worker's: it stands for all workers there, with whatever ids.
 void bar(Tx& tx, const Giver& giver) {
   tx.db.run(
       "INSERT INTO distrusted (worker, host, since_ms) VALUES (?, ?, ?) ON CONFLICT (worker) DO NOTHING",
       giver.worker, giver.host, tx.wall_ms);
   std::vector<std::int64_t> held;
   {
-    Statement row = tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND worker = ?", giver.worker);
+    Statement row =
+        tx.db.query("SELECT id FROM tasks WHERE state = 'leased' AND ? IN (worker, host)", giver.worker);
     while (row.step()) held.push_back(row.integer(0));
   }
   for (const std::int64_t id : held) {
@@ -73,7 +78,7 @@ void bar(Tx& tx, const Giver& giver) {
   }
   // Nor does it come back to a lease that is late, or repeat the report of a block that it has finished.
   tx.db.run(
-      "UPDATE tasks SET token = NULL, late_token = NULL WHERE worker = ? AND state IN ('pending', 'done')",
+      "UPDATE tasks SET token = NULL, late_token = NULL WHERE ? IN (worker, host) AND state IN ('pending', 'done')",
       giver.worker);
 }
 
@@ -83,7 +88,8 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who) {
   if (job.core_version.empty() || job.removed_ms > 0) {
     throw StoreError(StoreError::Code::kPrecondition, "job " + job.id + " has no field yet");
   }
-  const std::vector<Giver> givers = named(tx.db, job, who);
+  bool is_host = false;
+  std::vector<Giver> givers = named(tx.db, job, who, is_host);
   tx.require_room();
   const std::vector<Range> given = given_by(tx.db, job.erosion_id, givers);
   const DirectionPositions positions(
@@ -94,12 +100,20 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who) {
   undo(tx.db, job.erosion_id, removed > 0 ? std::vector<Range>{{0, job.directions}} : given);
   for (const Giver& giver : givers) {
     tx.db.run("DELETE FROM given_ranges WHERE erosion_id = ? AND worker = ?", job.erosion_id, giver.worker);
+    add_event(
+        tx, job.id,
+        {.event = "distrusted",
+         .worker = giver.worker,
+         .message = base::counted(removed, "value") + " taken out, " +
+                    (removed > 0 ? "all directions" : "its directions") + " are computed again" +
+                    (job.refines ? ", and the refinement begins anew" : "") + "; it gets no more work"});
+  }
+  if (is_host) {
+    givers.push_back({who, who});
     add_event(tx, job.id,
               {.event = "distrusted",
-               .worker = giver.worker,
-               .message = base::counted(removed, "value") + " taken out, " +
-                          (removed > 0 ? "all directions" : "its directions") + " are computed again" +
-                          (job.refines ? ", and the refinement begins anew" : "")});
+               .message =
+                   "no worker of host " + base::quoted(who) + " gets work until the server is started anew"});
   }
   tx.db.run("DELETE FROM verifications WHERE job_id = ?", job.id);
   restart_erosion(tx, job.erosion_id, job.directions);
@@ -107,15 +121,26 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who) {
   tx.changes.work = true;
 }
 
-bool is_distrusted(Database& db, const std::string& worker) {
-  return db.integer("SELECT 1 FROM distrusted WHERE worker = ?", worker).has_value();
+std::set<std::string> distrusted(Database& db) {
+  Statement row = db.query("SELECT worker FROM distrusted");
+  std::set<std::string> names;
+  while (row.step()) names.insert(row.text(0));
+  return names;
 }
 
-std::set<std::string> distrusted_workers(Database& db) {
-  Statement row = db.query("SELECT worker FROM distrusted");
-  std::set<std::string> workers;
-  while (row.step()) workers.insert(row.text(0));
-  return workers;
+void require_trusted(Database& db, const v1::WorkerIdentity& worker) {
+  const auto refuse_if = [&db](const std::string& name, const std::string& why) {
+    if (!db.integer("SELECT 1 FROM distrusted WHERE worker = ?", name)) return;
+    throw StoreError(StoreError::Code::kForbidden, "an administrator distrusts " + why);
+  };
+  refuse_if(worker.id(), "this worker; look after its machine before it is started anew");
+  refuse_if(worker.host(),
+            "all workers of this host until the server is started anew; look after the machine before");
+}
+
+void trust_hosts_again(Tx& tx) {
+  Statement row = tx.db.query("DELETE FROM distrusted WHERE worker = host RETURNING host");
+  while (row.step()) tx.changes.log.push_back(base::logfmt("host_trusted_again", {{"host", row.text(0)}}));
 }
 
 }  // namespace affskel::server

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "affskel/v1/worker_service.pb.h"
 #include "store/rows.h"
 #include "store/tx.h"
 
@@ -15,14 +16,18 @@ namespace affskel::server {
 /// to others.  What is left of the field is true, and only makes
 /// the rest faster.
 /// @param who the worker's id, a unique prefix of 6 characters or more, or its host: all its workers that
-///   took part.
+///   took part, and no worker there gets a lease until trust_hosts_again().
 /// @throws StoreError kNotFound when no worker of that name told anything; kPrecondition when the job has no
 ///   field.
 void distrust(Tx& tx, const JobRow& job, const std::string& who);
 
-/// Whether it is to get no lease.
-bool is_distrusted(Database& db, const std::string& worker);
-/// All of them.
-std::set<std::string> distrusted_workers(Database& db);
+/// Ids of workers, and hosts, that get no lease.
+std::set<std::string> distrusted(Database& db);
+/// @throws StoreError kForbidden where the worker is to get none.
+void require_trusted(Database& db, const v1::WorkerIdentity& worker);
+
+/// When a server is started: whoever did so has looked after the machines, and a server with workers of its own there
+/// could never use them again.
+void trust_hosts_again(Tx& tx);
 
 }  // namespace affskel::server

@@ -91,7 +91,7 @@ class Store final : public TokenSource {
   /// The same in any state, without what `worker` gave: see store/distrust.h.
   v1::Job resume_without(const JobRef& job_ref, const std::string& worker);
   /// Ids of the workers that get no lease any more.
-  std::set<std::string> distrusted_workers();
+  std::set<std::string> distrusted();
   /// Begins to have a `share` of the directions computed again, unless that is under way, or tells how far
   /// `verification` is: see store/verification.h.
   v1::Verification verify(const JobRef& job_ref, double share, std::int64_t verification);

@@ -166,8 +166,8 @@ v1::Job Store::resume_without(const JobRef& job_ref, const std::string& worker) 
   });
 }
 
-std::set<std::string> Store::distrusted_workers() {
-  return read([](Database& db) { return affskel::server::distrusted_workers(db); });
+std::set<std::string> Store::distrusted() {
+  return read([](Database& db) { return affskel::server::distrusted(db); });
 }
 
 std::string Store::remove(const JobRef& job_ref) {

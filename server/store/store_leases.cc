@@ -174,13 +174,6 @@ void check_asking(const Store::LeaseAsk& ask) {
                        " leases that it holds, not " + std::to_string(ask.held.size()));
 }
 
-void require_trusted(Database& db, const std::string& worker) {
-  if (!is_distrusted(db, worker)) return;
-  throw StoreError(
-      StoreError::Code::kForbidden,
-      "an administrator distrusts this worker; look after its machine before it is started anew");
-}
-
 /// Not about the database, or a change that was begun.
 bool is_about_caller(const StoreError& error) {
   return error.code() == StoreError::Code::kInvalid || error.code() == StoreError::Code::kForbidden;
@@ -220,7 +213,7 @@ std::optional<std::int64_t> Store::choose_task(Database& db, const Seeker& seeke
 std::optional<v1::Lease> Store::grant_next(Tx& tx, const LeaseAsk& ask) {
   check_asking(ask);
   for (const std::string& token : ask.held) renew_held(tx, token);
-  require_trusted(tx.db, ask.worker.id());
+  require_trusted(tx.db, ask.worker);
   if (!tx.room) return std::nullopt;  // what would come of it could not be stored
   remember_core_version(tx, ask.worker.core_version());
   const std::int64_t held =

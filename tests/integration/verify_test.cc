@@ -186,5 +186,36 @@ TEST_F(VerifyTest, SilenceIsFoundAndMended) {
   EXPECT_EQ(field(lab_, job), honest);
 }
 
+// A worker that the server itself supervises: another one is not started on the same machine.
+TEST_F(VerifyTest, ADistrustedHostHasNoWorkersUntilTheServerIsStartedAnew) {
+  lab_.make_torus(100);
+  std::string job;
+  {
+    const Process server = lab_.server({"--workers", "1"});
+    job = lab_.submit({"--points", "500"});
+    ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+    v1::ListJobEventsRequest request;
+    request.set_job(job);
+    v1::ListJobEventsResponse events;
+    grpc::ClientContext context;
+    ASSERT_TRUE(lab_.stub().ListJobEvents(&context, request, &events).ok());
+    ASSERT_EQ(events.givers_size(), 1);
+    const std::string host = events.givers(0).host();
+    const Output answer = lab_.client({"resume", job, "--distrust", host});
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NE(answer.err.find("until the server is started anew"), std::string::npos) << answer.err;
+    while (lab_.read("server.log").find("none is started in its place") == std::string::npos) {
+      ASSERT_NE(lab_.job(job).state(), v1::JOB_STATE_DONE);
+    }
+    Process another = lab_.worker({"--threads", "1", "--idle-exit", "1"});
+    EXPECT_EQ(another.wait(), 7);
+    EXPECT_EQ(lab_.job(job).state(), v1::JOB_STATE_QUEUED);
+    EXPECT_NE(lab_.client({"log", job}).out.find("no worker of host '" + host + "' gets work"),
+              std::string::npos);
+  }
+  const Process server = lab_.server({"--workers", "1"});
+  EXPECT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
+}
+
 }  // namespace
 }  // namespace affskel::integration

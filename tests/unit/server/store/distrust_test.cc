@@ -69,5 +69,28 @@ TEST_F(DistrustTest, NoQuotaStandsAgainstIt) {
   EXPECT_EQ(store_->resume_without(job.id(), "liar").state(), v1::JOB_STATE_QUEUED);
 }
 
+// By its host: under another id it would come back from the same machine.
+TEST_F(DistrustTest, AHostGetsNoWorkUntilTheServerIsStartedAnew) {
+  const v1::Job job = job_with_lie();
+  v1::WorkerIdentity honest = worker_identity("honest");
+  honest.set_host("another-host");
+  const v1::Lease held = lease("of the same host");
+  store_->resume_without(job.id(), "test-host");
+  EXPECT_STORE_ERROR(store_->renew(held.token()), kFenced);
+  EXPECT_STORE_ERROR(lease("new"), kForbidden);
+  EXPECT_TRUE(store_->distrusted().contains("test-host"));
+  EXPECT_TRUE(store_->lease(honest, "", false));
+  open();
+  EXPECT_NO_THROW(lease("new"));
+  EXPECT_STORE_ERROR(lease("liar"), kForbidden);
+}
+
+TEST_F(DistrustTest, AWorkerAloneLeavesOthersOfItsHost) {
+  const v1::Job job = job_with_lie();
+  store_->resume_without(job.id(), "liar");
+  EXPECT_STORE_ERROR(lease("liar"), kForbidden);
+  EXPECT_NO_THROW(lease("new"));
+}
+
 }  // namespace
 }  // namespace affskel::server
