@@ -228,6 +228,7 @@ void run_server(const Options& options) {
   limit_the_end();
   Signals signals;
   raise_file_limit();
+  require_protected(server_options(options, options.data_dir));
   const DataDir data_dir(options.data_dir);
   Server server(server_options(options, data_dir.path()));
   Supervisor supervisor(

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/end_limit.h"
@@ -117,6 +118,12 @@ void give_memory_back() {
 
 }  // namespace
 
+void require_protected(const ServerOptions& options) {
+  if (options.metrics) require_local_metrics(*options.metrics, options.insecure);
+  const bool may_have_token = std::filesystem::exists(database_file(options.data_dir));
+  require_protection(options.listen, {!options.tls.certificate.empty(), may_have_token, options.insecure});
+}
+
 Server::Server(const ServerOptions& options)
     : registry_(clock_, options.store.lease_ms), room_(options.limits, upload_bytes(options)) {
   try {
@@ -130,7 +137,7 @@ Server::Server(const ServerOptions& options)
 
 void Server::start(const ServerOptions& options) {
   hold_grpc();
-  if (options.metrics) require_local_metrics(*options.metrics, options.insecure);
+  require_protected(options);
   prepare_addresses(options.listen);
   store_ =
       std::make_unique<Store>(database_file(options.data_dir), options.store, clock_, &hub_, &room_.metrics);

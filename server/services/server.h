@@ -47,6 +47,10 @@ struct ServerOptions {
   CallLimits limits = limits_for(open_files_limit());
 };
 
+/// Before anything is made, lest a start that is refused leave a directory with a database.
+/// @throws std::runtime_error naming an address that other machines reach and what it lacks.
+void require_protected(const ServerOptions& options);
+
 /// A serving server: the store, both services and the maintenance of leases, without signals and
 /// processes.  Works until stopped or destroyed.
 ///

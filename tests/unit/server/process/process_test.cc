@@ -153,6 +153,17 @@ TEST(RunTest, DamagedDatabaseIsNoInternalError) {
   EXPECT_EXIT(std::_Exit(run(options)), testing::ExitedWithCode(2), "affskel.db.*not a database");
 }
 
+TEST(RunTest, ARefusedStartMakesNothing) {
+  const TemporaryDirectory directory;
+  Options options;
+  options.data_dir = (directory.path() / "new").string();
+  options.listen = {"0.0.0.0:0"};
+  EXPECT_EXIT(std::_Exit(run(options)), testing::ExitedWithCode(2), "0.0.0.0.*there is no TLS");
+  options.tls_cert = options.tls_key = "lab.pem";
+  EXPECT_EXIT(std::_Exit(run(options)), testing::ExitedWithCode(2), "0.0.0.0.*there is no token");
+  EXPECT_FALSE(std::filesystem::exists(options.data_dir));
+}
+
 TEST(DataDirTest, IsHeldByOneServer) {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "new" / "data").string();
