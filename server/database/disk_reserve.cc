@@ -54,12 +54,15 @@ bool DiskReserve::allocate() const {
 bool DiskReserve::restore() {
   if (whole_) return true;
   const std::uint64_t free = free_(directory_);
-  const std::uint64_t wanted = not_enough_ == 0 ? 0 : not_enough_ + kGain;
-  if (free < std::max(bytes_ + bytes_ / 4, wanted)) return false;
+  if (free < wanted()) return false;
   not_enough_ = free;
   whole_ = allocate();
   if (!whole_) unlink(file_.c_str());
   return whole_;
+}
+
+std::uint64_t DiskReserve::wanted() const {
+  return std::max(bytes_ + bytes_ / 4, not_enough_ == 0 ? 0 : not_enough_ + kGain);
 }
 
 void DiskReserve::release() {

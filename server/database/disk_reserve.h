@@ -26,6 +26,9 @@ class DiskReserve {
   /// returns whether it is whole.
   bool restore();
 
+  /// Free bytes from which on restore() tries it.
+  std::uint64_t wanted() const;
+
   /// Gives the room away.
   void release();
 

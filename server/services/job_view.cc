@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kBusyFor{200};  // a count of what workers are busy with holds
 
-constexpr const char* kDiskFull = "the server's disk is full; it goes on when there is room";
-
 /// Workers that are busy, seen from a job that waits for one of them.
 struct Rivals {
   std::int64_t higher = 0;  ///< with jobs of a higher priority
@@ -74,7 +72,10 @@ class JobView::Reasons {
 
   void add_to(v1::Job& job) {
     const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
-    if (active && store_.disk_full()) return job.set_waiting_reason(kDiskFull);
+    if (const std::uint64_t wanted = active ? store_.room_wanted(job.id()) : 0; wanted > 0) {
+      return job.set_waiting_reason("the server's disk is full; it tries again once " +
+                                    std::to_string((wanted + kMegabyte - 1) / kMegabyte) + " MB are free");
+    }
     if (!active || !job.waiting_reason().empty()) return;
     const std::vector<WorkerRegistry::Present>& workers = connected();
     if (const std::string why = too_large_for(workers, job.memory_needed()); !why.empty()) {

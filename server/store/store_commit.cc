@@ -125,7 +125,11 @@ void Store::commit_all(std::span<Change* const> together) {
   require_not_lost();
   const auto committed = std::chrono::steady_clock::now();
   for (Change* change : together) {
-    if (change->changes.grown || change->changes.eased) reserve_.allow_retry();
+    const Changes& made = change->changes;
+    if ((made.grown && !made.partly) || made.eased) {
+      reserve_.allow_retry();
+      forget_stuck(made.jobs);
+    }
     try {
       change->changes.counts.push_back([waited = begun - change->asked, worked = committed - begun](
                                            Metrics& metrics) { metrics.transaction(waited, worked); });

@@ -113,8 +113,8 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
   }
 }
 
-/// A report that the full disk cannot take.  Its worker will try again and keeps its lease meanwhile, unless
-/// the rest is not wanted any more.
+/// A report that the full disk cannot take.  Its worker will try again and keeps its leases meanwhile, those whose reports
+/// wait behind this one, too, unless the rest is not wanted any more.
 std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job) {
   if (task.state == "leased" && (!job.active() || job.cancel_requested)) {
     release_task(tx, task);
@@ -125,9 +125,9 @@ std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job
   }
   // It tries several times a second, and every commit takes a little of what is left.
   tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2 WHERE id = ?3 AND state = 'leased'"
-      " AND deadline_ms < ?1 + ?2 / 2",
-      tx.lease_ms, tx.options.lease_ms, task.id);
+      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?2)"
+      " WHERE worker = ?3 AND state = 'leased' AND deadline_ms < ?1 + ?2 / 2",
+      tx.lease_ms, tx.options.lease_ms, task.worker);
   return std::make_exception_ptr(full_disk(tx.db));
 }
 
@@ -261,6 +261,7 @@ bool Store::report_part(const std::string& token, const RecordBatch& records) {
       return false;
     }
     tx.require_room();
+    tx.changes.partly = true;
     const bool merges = takes_records(job, task);
     if (merges) {
       note_given(tx.db, job, {task.worker, task.host}, {}, records.records());

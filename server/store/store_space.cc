@@ -17,9 +17,6 @@
 namespace affskel::server {
 namespace {
 
-// The log may be on the full disk, and workers try their reports again several times a second.
-constexpr std::int64_t kLogFullDiskMs = 60000;
-
 constexpr std::int64_t kTryAgainMs = 60000;
 
 // The log of a full disk is copied as soon as it has this much, for it must not grow.
@@ -118,11 +115,12 @@ bool Store::has_room() {
   if (!disk_full_) return true;
   // A job too large for what is free must not lock all others out for ever.
   if (clock_.lease_ms() - full_disk_ms_ > kTryAgainMs) reserve_.allow_retry();
-  if (!reserve_.restore()) return false;
+  const bool restored = reserve_.restore();
+  room_wanted_ = reserve_.wanted();
+  if (!restored) return false;
   db_.set_usual_log_limit();
   disk_full_ = false;
   room_again_ = true;
-  spdlog::info(base::logfmt("disk_has_room", {{"file", file_}}));
   return true;
 }
 
@@ -135,15 +133,17 @@ void Store::live_on_reserve() {
 /// that follows one of the jobs that the change was about learns why it gets no further.
 void Store::make_room(const Changes& undone) {
   const std::int64_t now = clock_.lease_ms();
-  std::int64_t told = full_disk_told_ms_;
-  if ((told == 0 || now - told >= kLogFullDiskMs) && full_disk_told_ms_.compare_exchange_strong(told, now)) {
-    spdlog::error(base::logfmt("disk_full", {{"file", file_}}));
+  if (!disk_full_told_.exchange(true)) spdlog::error(base::logfmt("disk_full", {{"file", file_}}));
+  if (undone.grown) {
+    const base::MutexLock lock(stuck_mutex_);
+    stuck_.insert(undone.jobs.begin(), undone.jobs.end());
   }
   {
     const base::MutexLock lock(mutex_);
     if (disk_full_.exchange(true)) return;
     full_disk_ms_ = now;
     live_on_reserve();
+    room_wanted_ = reserve_.wanted();
     try {
       db_.unclaim_pages();
     } catch (const SqliteError&) {
@@ -155,6 +155,51 @@ void Store::make_room(const Changes& undone) {
     stuck.jobs = undone.jobs;
     listener_->on_change(stuck);
   }
+}
+
+std::uint64_t Store::room_wanted(const std::string& job_id) {
+  if (disk_full_) return room_wanted_;
+  const base::MutexLock lock(stuck_mutex_);
+  return stuck_.contains(job_id) ? room_wanted_.load() : 0;
+}
+
+/// What was refused of them is written, or not wanted any more.
+void Store::forget_stuck(const std::set<std::string>& jobs) {
+  const base::MutexLock lock(stuck_mutex_);
+  for (const std::string& job : jobs) stuck_.erase(job);
+}
+
+/// Those that have come to an end, or that nobody works on who would try again.
+void Store::forget_ended_stuck() {
+  std::set<std::string> stuck;
+  {
+    const base::MutexLock lock(stuck_mutex_);
+    stuck = stuck_;
+  }
+  if (stuck.empty()) return;
+  read([&](Database& db) {
+    return std::erase_if(stuck, [&](const std::string& job) {
+      return db
+          .integer(
+              "SELECT 1 FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE j.id = ? AND t.state = 'leased'"
+              " AND j.state IN ('queued', 'running') LIMIT 1",
+              job)
+          .has_value();
+    });
+  });
+  forget_stuck(stuck);
+}
+
+/// Not whenever the reserve is whole again: what needs more than that is then tried once more, and mostly in vain.
+void Store::tell_room() {
+  if (!disk_full_told_ || disk_full_) return;
+  forget_ended_stuck();
+  {
+    const base::MutexLock lock(stuck_mutex_);
+    if (!stuck_.empty()) return;
+  }
+  disk_full_told_ = false;
+  spdlog::info(base::logfmt("disk_has_room", {{"file", file_}}));
 }
 
 /// Jobs that were stuck go on.
@@ -182,6 +227,7 @@ bool Store::tidy() {
     has_room();
   }
   if (room_again_.exchange(false)) notify_room();
+  tell_room();
   return more;
 }
 

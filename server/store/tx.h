@@ -44,6 +44,7 @@ struct Changes {
   bool work = false;             ///< a task became available
   bool dropped = false;          ///< something is left for Store::tidy
   bool grown = false;            ///< more than bookkeeping was written
+  bool partly = false;           ///< of that, a part of what has to be written whole
   bool eased = false;            ///< a job that was short of room no longer needs it
   std::vector<std::string> log;  ///< entries: base::logfmt
   /// What the metrics are told.

@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <latch>
+#include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -191,17 +195,19 @@ TEST_F(FullDiskTest, AWorkerThatTriesAgainKeepsItsLease) {
   const v1::Job job = submit();
   prepare(50000, 64);
   const v1::Lease block = lease();
+  const v1::Lease next = lease();  // what it computes there it reports after this one
   disk_.leave(3 * kMiB);
   const std::uint64_t at = report_until_full(block, block.positions(0).begin());
   disk_.leave(kMiB);  // others take what the log has given back
-  for (int i = 0; i < 10; ++i) {
+  for (const std::int64_t end = clock_.lease_ms() + 2 * options_.stall_ms; clock_.lease_ms() < end;) {
     clock_.advance(options_.lease_ms * 3 / 4);
     EXPECT_THROW(report(block, at, at + 1), SqliteError);
-    EXPECT_EQ(store_->expire_leases(), 0);
+    ASSERT_EQ(store_->expire_leases(), 0);
   }
+  EXPECT_NO_THROW(store_->renew(next.token()));
   EXPECT_EQ(store_->job(job.id()).counters().leases_lost(), 0U);
   clock_.advance(options_.lease_ms + 1);
-  EXPECT_EQ(store_->expire_leases(), 1) << "silent workers lose theirs as ever";
+  EXPECT_EQ(store_->expire_leases(), 2) << "silent workers lose theirs as ever";
 }
 
 // The end of the last block merges the log into the field, for which there is no room.
@@ -248,6 +254,43 @@ TEST_F(FullDiskTest, AJobTooLargeForTheDiskHoldsOthersUpOnlyUntilItIsCancelledOr
   EXPECT_THROW(submit("OFF 3"), SqliteError);
   store_->cancel(large.id());
   EXPECT_NO_THROW(submit("OFF 3"));
+}
+
+// The reserve comes back whenever it may, and goes again with the next report: that is no room.
+TEST_F(FullDiskTest, RoomIsToldOnceWhatWasRefusedIsWritten) {
+  std::ostringstream log;
+  const auto usual = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  const auto told = [&log](const std::string& event) {
+    return log.str().find("event=" + event) != std::string::npos;
+  };
+  const v1::Job large = submit();
+  prepare(500000, 16);
+  const v1::Lease block = lease();
+  EXPECT_EQ(store_->room_wanted(large.id()), 0U);
+  disk_.leave(5 * kMiB);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THROW(report(block, 0, 1), SqliteError);
+    EXPECT_TRUE(store_->disk_full());
+    for (int kept = 0; kept < 20; ++kept) {
+      clock_.advance(options_.lease_ms * 3 / 4);
+      store_->renew(block.token());
+    }
+    tidy_up();
+    EXPECT_FALSE(store_->disk_full()) << "the reserve is whole for once";
+    EXPECT_GT(store_->room_wanted(large.id()), options_.reserve_bytes);
+  }
+  const v1::Job small = submit("OFF 2");
+  EXPECT_EQ(store_->room_wanted(small.id()), 0U);
+  EXPECT_TRUE(told("disk_full"));
+  EXPECT_FALSE(told("disk_has_room"));
+  disk_.leave(100 * kMiB);
+  EXPECT_NO_THROW(report(block, 0, 1));
+  tidy_up();
+  EXPECT_EQ(store_->room_wanted(large.id()), 0U);
+  EXPECT_TRUE(told("disk_has_room"));
+  spdlog::set_default_logger(usual);
 }
 
 // Everything is small here, so the log's own place is what the commits must get along with.
