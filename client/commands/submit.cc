@@ -274,7 +274,8 @@ void add_submit(CommandLine& line) {
   command
       ->add_option(
           "FILE", o.file,
-          "Closed triangle mesh: " + mesh_kinds() + ";\nsubmitted as OFF text. - reads it from stdin")
+          "Closed triangle mesh: " + mesh_kinds() +
+              ";\nwith --repair wrap points, too (.xyz, .csv, .ply). Submitted as OFF text. - reads it from\nstdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

@@ -181,7 +181,9 @@ Fetched fetch_armature(Session& session, const FetchRequest& request, const Chos
 }  // namespace
 
 Fetched fetch_skeleton(Session& session, const FetchRequest& request) {
-  ShapeOutput output(request.destination, formats_of(form_of(request)), "skeleton");
+  const bool barriers = request.barrier || request.min_barrier > 0;
+  ShapeOutput output(request.destination, formats_of(form_of(request)),
+                     barriers ? "skeleton with barriers" : "skeleton");
   const ChosenSkeleton chosen = choose_skeleton(session, request.job, request.skeleton);
   return wants_complex(request, chosen.params, output.format())
              ? fetch_complex(session, request, chosen, output)

@@ -46,7 +46,10 @@ TEST_F(ClientTest, ASkeletonIsAComplexWhereItMayBe) {
   EXPECT_EQ(asked({"--operator", "sobel", "--alpha", "4"}, ".ply"), kComplex);
   EXPECT_EQ(run({"skeleton", "@last", "--as", "complex", "-o", dir_ / "s.csv"}).exit_code, 2);
   EXPECT_EQ(run({"skeleton", "@last", "--as", "points", "-o", dir_ / "s.stl"}).exit_code, 2);
-  EXPECT_EQ(run({"skeleton", "@last", "--barrier", "-o", dir_ / "s.csv"}).exit_code, 2);
+  const Outcome refused = run({"skeleton", "@last", "--barrier", "-o", dir_ / "s.csv"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("cannot write the skeleton with barriers as '.csv'"), std::string::npos)
+      << refused.err;
   EXPECT_EQ(run({"skeleton", "@last", "--operator", "sobel", "--alpha", "4", "-o", dir_ / "s.xyz"}).exit_code,
             2);
   EXPECT_EQ(run({"skeleton", "@last", "--as", "points", "--barrier", "-o", dir_ / "s.ply"}).exit_code, 2);

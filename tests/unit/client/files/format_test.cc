@@ -48,6 +48,17 @@ TEST(ChooseFormat, AFormatStandsAboveTheName) {
   }
 }
 
+TEST(ChooseFormat, ToldOfAFolderAsksForAFile) {
+  try {
+    choose_format("results/", field_formats(), "field");
+    FAIL();
+  } catch (const ClientError& error) {
+    EXPECT_TRUE(
+        std::string(error.what()).starts_with("is a folder; name a file in it for the field; possible"))
+        << error.what();
+  }
+}
+
 TEST(ChooseFormat, SpeaksOfWhatIsToBeWritten) {
   try {
     choose_format("e.STL", skeleton_formats(), "eroded solid's points");

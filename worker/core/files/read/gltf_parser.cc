@@ -78,7 +78,12 @@ class Gltf {
         fail_at(0, "needs " + needed.get<std::string>() + ", which is not read" + kAsGlb);
     }
     drawn_.assign(list(text_, "nodes").size(), false);
-    for (const std::size_t root : roots()) draw(root, AffineMap());
+    const std::vector<std::size_t> shown = roots();
+    if (shown.empty() && !list(text_, "meshes").empty())
+      fail_at(
+          0,
+          "has meshes, and none of them is shown: its scene is empty; put them into it, and export it again");
+    for (const std::size_t root : shown) draw(root, AffineMap());
     ShapeFile file = surface_.take();
     if (others_ > 0) file.off.passed_over.push_back({"points and lines", others_, 0});
     return file;

@@ -93,6 +93,8 @@ class Model final : public XmlHandler {
 
   ShapeFile take() {
     ShapeFile file;
+    if (built_.empty() && !objects_.empty())
+      fail_at(0, std::string("has objects, and none of them is placed: its build is empty") + kInstead);
     for (const auto& [id, object] : objects_)
       held_ += std::max(object.mesh.points.size(), object.mesh.triangles.size());
     for (const Component& item : built_) add(item, AffineMap(), 0, file.off.mesh);

@@ -89,6 +89,8 @@ TEST(MeshFormats, GltfPlacesMeshesByItsNodes) {
   parts.text["nodes"] = {{{"mesh", 0}, {"scale", {-1, 1, 1}}}};
   parts.text.erase("scenes");
   expect_box(parse_mesh_file("", glb(parts)), "glb");
+  parts.text["scenes"] = {{{"nodes", nlohmann::json::array()}}};
+  EXPECT_NE(refusal(glb(parts)).find("its scene is empty"), std::string::npos) << refusal(glb(parts));
 }
 
 TEST(MeshFormats, GltfHasStripsFansAndPlainCorners) {
@@ -205,6 +207,7 @@ TEST(MeshFormats, ThreemfPlacesObjectsInObjects) {
               "<item objectid=\"1\" xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" p:path=\"/3D/other.model\"/>"))
           .find("other files"),
       std::string::npos);
+  EXPECT_NE(refusal(threemf(one, "")).find("its build is empty"), std::string::npos);
   EXPECT_NE(refusal(archive({{"readme.txt", "none"}})).find("without a 3D model"), std::string::npos);
 }
 
