@@ -269,6 +269,13 @@ TEST_F(FullDiskTest, RoomIsToldOnceWhatWasRefusedIsWritten) {
   prepare(500000, 16);
   const v1::Lease block = lease();
   EXPECT_EQ(store_->room_wanted(large.id()), 0U);
+  RecordBatch part(500000, 16, block.job().prepared().volume());
+  v1::FieldRecords one;
+  one.add_point(7);
+  one.add_direction(0);
+  one.add_erosion(made_up_erosion(7, 0));
+  one.add_area(made_up_area(7, 0));
+  part.append(one);
   disk_.leave(5 * kMiB);
   for (int i = 0; i < 3; ++i) {
     EXPECT_THROW(report(block, 0, 1), SqliteError);
@@ -279,6 +286,8 @@ TEST_F(FullDiskTest, RoomIsToldOnceWhatWasRefusedIsWritten) {
     }
     tidy_up();
     EXPECT_FALSE(store_->disk_full()) << "the reserve is whole for once";
+    EXPECT_GT(store_->room_wanted(large.id()), options_.reserve_bytes);
+    EXPECT_TRUE(store_->report_part(block.token(), part)) << "the first of a large report finds room";
     EXPECT_GT(store_->room_wanted(large.id()), options_.reserve_bytes);
   }
   const v1::Job small = submit("OFF 2");
