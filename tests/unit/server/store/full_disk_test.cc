@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "database/disk_reserve.h"
 #include "expect_store_error.h"
 #include "small_disk.h"
 #include "store_fixture.h"
@@ -401,30 +400,6 @@ TEST_F(FullDiskTest, StartsWhereNothingIsFreeButTheReserve) {
   EXPECT_EQ(bytes_of("reserve"), 0U);
   EXPECT_EQ(store_->cancel(job.id()).state(), v1::JOB_STATE_CANCELLED);
   EXPECT_EQ(store_->remove(job.id()), job.id());
-}
-
-TEST(DiskReserve, IsRealAndRestoredOnlyWhenThereIsMoreThanWasNotEnough) {
-  const TemporaryDirectory directory;
-  const std::string file = (directory.path() / "reserve").string();
-  std::ofstream(file) << "";
-  std::filesystem::resize_file(file, kMiB);  // sparse
-  std::uint64_t free = 100 * kMiB;
-  DiskReserve reserve(directory.path().string(), kMiB, [&](const std::string&) { return free; });
-  EXPECT_TRUE(reserve.whole());
-  reserve.release();
-  EXPECT_FALSE(std::filesystem::exists(file));
-  free = kMiB + kMiB / 4 - 1;
-  EXPECT_FALSE(reserve.restore()) << "it would take the last";
-  free = 10 * kMiB;
-  EXPECT_TRUE(reserve.restore());
-  EXPECT_EQ(std::filesystem::file_size(file), kMiB);
-  reserve.release();
-  EXPECT_FALSE(reserve.restore()) << "as much as before, which was not enough";
-  free = 11 * kMiB;
-  EXPECT_TRUE(reserve.restore());
-  reserve.allow_retry();
-  reserve.release();
-  EXPECT_TRUE(reserve.restore());
 }
 
 }  // namespace
