@@ -190,13 +190,24 @@ class FindHubs {
     }
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0) result_.of[v] = kNone;
-    return fills(all.count, hub) && !is_bar(hub);
+    return fills(all.count, hub) && !is_bar(hub) && has_middle(hub);
   }
 
   // A network of rods is none.
   bool fills(double count, const LimbHub& hub) const {
     const double ball = std::pow(radius_of(count) * kGrown, 3);
     return ball * std::sqrt(determinant(hub.form)) >= kFilled;
+  }
+
+  // The middle of a ring or of what is bent lies outside the solid.
+  bool has_middle(const LimbHub& hub) const {
+    StopCheck stop(in_.context);
+    double least = std::numeric_limits<double>::infinity();
+    each_point(stop, [&](const Vec3& at, std::uint32_t) {
+      const Vec3 way = at - hub.centre;
+      least = std::min(least, dot(way, way));
+    });
+    return least < in_.lattice.spacing * in_.lattice.spacing;
   }
 
   bool is_bar(const LimbHub& hub) const {

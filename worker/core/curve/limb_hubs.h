@@ -45,7 +45,8 @@ struct LimbHubsInput {
 /// more than a ball as thick as the thickest limb there: lines may run beside its middle, from arm to arm, in another
 /// way at each spacing.  As large as an ellipsoid with its moments, it takes what is nearest to lines in that, too,
 /// and so on, and leaves what is not; one that would then hold the free end of a limb that is longer than the hub is
-/// thick is none, nor one that fills less than 0.45 of it, a network, or is 3.5 times as long as wide, a bar.
+/// thick is none, nor one that fills less than 0.45 of it, a network, is 3.5 times as long as wide, a bar, or has its middle
+/// outside the solid, a ring.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core
