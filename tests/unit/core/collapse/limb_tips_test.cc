@@ -53,17 +53,37 @@ TEST(LimbTips, OfAFingerAreItsTwoEnds) {
   }
 }
 
-// However it lies in the lattice: its lines meet half-way, three radii beyond a round end.
-TEST(LimbTips, OfARoundLimbReachAsFarAsItDoes) {
-  const double spacing = 0.11;
+// How far the limbs at both ends of what is long reach, in eight positions in the lattice.
+std::vector<double> reaches(const Mesh& mesh, double spacing) {
+  std::vector<double> result;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const LatticeSolid solid(shaken(make_cylinder(1, 8, 64), 0, seed), spacing);
+    const LatticeSolid solid(shaken(mesh, 0, seed), spacing);
     const DualComplex complex(solid.lattice);
     const std::vector<float> depth = surface_distance(solid.lattice);
     const std::vector<double> height(depth.begin(), depth.end());
-    for (const LimbTip& tip : limb_tips(complex, depth, height, 1).tips)
-      EXPECT_NEAR(tip.reach, 3, 0.7) << seed;
+    for (const LimbTip& tip : limb_tips(complex, depth, height, 0.9).tips) result.push_back(tip.reach);
   }
+  return result;
+}
+
+// Lines meet half-way.  A round limb's begins a radius before its end.
+TEST(LimbTips, OfARoundLimbReachAsFarAsItDoes) {
+  const std::vector<double> found = reaches(make_cylinder(1, 8, 64), 0.11);
+  EXPECT_EQ(found.size(), 16U);
+  for (const double reach : found) EXPECT_NEAR(reach, 3, 0.7);
+}
+
+// The fronts that come from the edges of a bar's end meet where those from its corners do, 2^0.5 times its half width
+// later than they began to come; those of an elliptic limb where its sheet ends, which is 4 wide.
+TEST(LimbTips, OfAFlatLimbReachAsFarAsItDoes) {
+  const std::vector<double> bar = reaches(make_box(2, 2, 10), 0.15);
+  EXPECT_EQ(bar.size(), 16U);
+  for (const double reach : bar) EXPECT_NEAR(reach, 4 / std::sqrt(2), 0.6);
+  Mesh ellipse = make_cylinder(1, 24, 48);
+  for (Vec3& place : ellipse.points) place.x *= 4;
+  const std::vector<double> flat = reaches(ellipse, 0.2);
+  EXPECT_EQ(flat.size(), 16U);
+  for (const double reach : flat) EXPECT_NEAR(reach, 2.1, 0.6);
 }
 
 TEST(LimbTips, AreNoneOfWhatIsNotLongerThanThick) {

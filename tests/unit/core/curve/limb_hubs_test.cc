@@ -159,6 +159,15 @@ TEST(LimbHubs, AreNoBars) {
   }
 }
 
+// A shell as thick as its cavity is wide, as the ring of a gear: what hangs on it hangs on no ball.
+TEST(LimbHubs, AreNoRings) {
+  const double inside = kCubeSide / 3;
+  Cube cube(joined(make_box(kCubeSide, kCubeSide, kCubeSide),
+                   reversed(moved(make_box(inside, inside, inside), {inside, inside, inside}))));
+  cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
+  EXPECT_TRUE(cube.found().hubs.empty());
+}
+
 TEST(LimbHubs, HoldASpur) {
   const Cube cube = cube_with_limb(20, 0.5);
   const LimbHubs found = cube.found();
