@@ -16,7 +16,8 @@ namespace affskel::core {
 namespace {
 
 constexpr double kSudden = 0.4;   // of the way along a line: what a limb's radius grows by where it ends
-constexpr double kThick = 1.55;   // times as thick as the limbs
+constexpr double kThick = 1.55;   // times as thick as the limbs but one,
+constexpr double kThicker = 1.4;  // and as that
 constexpr double kGrown = 1.1;    // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.45;  // of the ellipsoid with its moments: a network fills less
 constexpr double kPlate = 2;      // times as wide as thick: what is nearest to a line makes no tube
@@ -163,11 +164,15 @@ class FindHubs {
   }
 
   bool is_thick(std::uint32_t body, double count) {
-    double thickest = 0;
+    std::array<double, 2> thickest{};
     for (const HubLimb& limb : limbs_)
-      for (const std::uint32_t end : limb.ends)
-        if (bodies_.find(end) == body) thickest = std::max(thickest, limb.size);
-    return thickest > 0 && radius_of(count) > kThick * thickest;
+      for (const std::uint32_t end : limb.ends) {
+        if (bodies_.find(end) != body) continue;
+        thickest[1] = std::max(thickest[1], std::min(limb.size, thickest[0]));
+        thickest[0] = std::max(thickest[0], limb.size);
+      }
+    const double radius = radius_of(count);
+    return thickest[0] > 0 && radius > kThicker * thickest[0] && radius > kThick * thickest[1];
   }
 
   double radius_of(double count) const {  // of a ball
