@@ -136,10 +136,10 @@ Cube cube_with_limb(int vertices, double radius) {
   return cube;
 }
 
-// A ball as large as the cube has 2.48.
+// A ball as large as what that limb leaves of the cube has 2.16.
 TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
-  EXPECT_TRUE(cube_with_limb(80, 1.85).found().hubs.empty());
-  EXPECT_EQ(cube_with_limb(80, 1.7).found().hubs.size(), 1U) << "as a seat with a back, that is thick alone";
+  EXPECT_TRUE(cube_with_limb(80, 1.6).found().hubs.empty());
+  EXPECT_EQ(cube_with_limb(80, 1.5).found().hubs.size(), 1U) << "as a seat with a back, that is thick alone";
 }
 
 // Here the walls of a hollow cube, of which no limb has anything, with lines within.
