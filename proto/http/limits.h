@@ -17,8 +17,8 @@ struct PlaceLimits {
   std::size_t of_owner = 32;  ///< of one owner that is known
   /// For so long a connection that does nothing counts as one that is about to.
   std::chrono::milliseconds grace{500};
-  /// So long a stranger keeps a place at least: to be greeted and heard across a slow network.  Who comes
-  /// meanwhile waits.
+  /// So long a stranger that says nothing yet keeps a place, to be greeted and heard across a slow network, unless
+  /// its own address has half of them.  Who comes meanwhile waits.
   std::chrono::milliseconds stay{250};
 };
 

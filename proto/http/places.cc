@@ -65,7 +65,7 @@ bool Places::close_one(const Choice& choice) {
 Places::Clock::duration Places::pause() {
   if (count(is_stranger) < most_strangers() && size() < limits_.connections) return {};
   const Entry* const next = next_to_go(is_stranger);
-  if (next == nullptr) return {};
+  if (next == nullptr || rank(*next) < kBusy) return {};  // it was heard, or had the time for that
   return std::max(Clock::duration::zero(), next->came + limits_.stay - now_());
 }
 

@@ -27,7 +27,8 @@ using boost::system::error_code;
 
 // Without descriptors, so much time for connections to end.
 constexpr std::chrono::milliseconds kPause{100};
-// Between looks for a place: who has just come mostly is heard, and keeps it, long before the time for that is over.
+// Between looks for a place while newcomers wait: who came before them is mostly heard within less than a
+// millisecond, and hundreds may wait.
 constexpr std::chrono::microseconds kHearing{500};
 
 // nohup and shells that start in the background have their process ignore some signals: it keeps that.

@@ -74,8 +74,8 @@ class Collapsing {
   ///   level(cell) and rank_of(), so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
   ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was
-  ///   removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is taken out by itself, or
-  ///   nothing.
+  ///   removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is taken out by
+  ///   itself, or nothing.
   template <class Rules>
   void run(Rules& rules) {
     for_each_name([&](Cell cell) { offer(cell, 0, rules); });

@@ -46,7 +46,7 @@ constexpr double kOffAxis = 0.8;
 // A square goes with the front in the direction of the front: along a diagonal of space that advances 0.58 along an axis.
 constexpr double kOnwards = 0.6;
 
-// Depths grow by twice this over the two spacings across a sheet, or it is no sheet.
+// A sheet turns the slopes of the depth, of which sheet_normal() sums four, by at least so much.
 constexpr double kSheet = 0.3;
 
 // How far a sheet's normal lets one get along it by a step in a direction, of which the normal has so much.
@@ -54,9 +54,9 @@ double advance(double normal) {
   return std::sqrt(std::max(0.0, 1 - normal * normal));
 }
 
-// When a front of unit speed on a sheet leaves a square that it enters by one side at a and by one beside that at b:
-// |grad T| = 1 along the sheet, by differences (Sethian, A fast marching level set method, 1996).  u, v: what the sheet's
-// normal has along the ways that a and b lead in; all 0 where there is no sheet.
+// When a front of unit speed on a sheet leaves a square that it enters by one side at a and by one beside that at
+// b: |grad T| = 1 along the sheet, by differences (Sethian, A fast marching level set method, 1996).  u, v: what the
+// sheet's normal has along the ways that a and b lead in; all 0 where there is no sheet.
 double front_time(double a, double b, double u, double v) {
   const double A = 1 - v * v, B = u * v, C = 1 - u * u;  // of (T - a)^2, 2 (T - a)(T - b), (T - b)^2
   const double later = std::max(a, b), p = later - a, q = later - b;
@@ -110,7 +110,7 @@ class Thinning {
     if (!cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
   }
 
-  // Only now: of what a wave removes nothing comes first.
+  // A front counts from the next wave on: what one wave removes has no order.
   void wave_ends() {
     for (const Cell edge : fronts_) reached_[edge] = std::abs(reached_[edge]);
     fronts_.clear();
@@ -214,7 +214,8 @@ class Thinning {
     return best;
   }
 
-  // Across the sheet that a square is of: from one side of it to the other the depth's slope turns.  0 where it is of none.
+  // Across the sheet that a square is of: from one side of it to the other the depth's slope turns.  0 where it is
+  // of none.
   Vec3 sheet_normal(Cell square, std::size_t across) const {
     Vec3 n;
     for (const auto& [cube, place] : complex_.star(square)) {

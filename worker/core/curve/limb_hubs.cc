@@ -16,8 +16,8 @@ namespace affskel::core {
 namespace {
 
 constexpr double kSudden = 0.4;   // of the way along a line: what a limb's radius grows by where it ends
-constexpr double kThick = 1.55;   // times as thick as the limbs but one,
-constexpr double kThicker = 1.4;  // and as that
+constexpr double kThick = 1.55;   // times as thick as all its limbs but the thickest
+constexpr double kThicker = 1.4;  // times as thick as the thickest
 constexpr double kGrown = 1.1;    // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.45;  // of the ellipsoid with its moments: a network fills less
 constexpr double kPlate = 2;      // times as wide as thick: what is nearest to a line makes no tube
@@ -165,12 +165,11 @@ class FindHubs {
 
   bool is_thick(std::uint32_t body, double count) {
     std::array<double, 2> thickest{};
-    for (const HubLimb& limb : limbs_)
-      for (const std::uint32_t end : limb.ends) {
-        if (bodies_.find(end) != body) continue;
-        thickest[1] = std::max(thickest[1], std::min(limb.size, thickest[0]));
-        thickest[0] = std::max(thickest[0], limb.size);
-      }
+    for (const HubLimb& limb : limbs_) {
+      if (bodies_.find(limb.ends[0]) != body && bodies_.find(limb.ends[1]) != body) continue;
+      thickest[1] = std::max(thickest[1], std::min(limb.size, thickest[0]));
+      thickest[0] = std::max(thickest[0], limb.size);
+    }
     const double radius = radius_of(count);
     return thickest[0] > 0 && radius > kThicker * thickest[0] && radius > kThick * thickest[1];
   }
@@ -206,13 +205,18 @@ class FindHubs {
 
   // The middle of a ring or of what is bent lies outside the solid.
   bool has_middle(const LimbHub& hub) const {
-    StopCheck stop(in_.context);
-    double least = std::numeric_limits<double>::infinity();
-    each_point(stop, [&](const Vec3& at, std::uint32_t) {
-      const Vec3 way = at - hub.centre;
-      least = std::min(least, dot(way, way));
-    });
-    return least < in_.lattice.spacing * in_.lattice.spacing;
+    std::array<std::int64_t, 3> place{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      place[axis] = std::llround(hub.centre[axis] / in_.lattice.spacing);
+    const auto& runs = in_.lattice.axis[2].runs;
+    const auto is_before = [](const std::array<std::int64_t, 3>& at, const LatticeRun& run) {
+      return std::lexicographical_compare(at.begin(), at.end(), run.start.begin(), run.start.end());
+    };
+    const auto after = std::upper_bound(runs.begin(), runs.end(), place, is_before);
+    if (after == runs.begin()) return false;
+    const LatticeRun& run = *std::prev(after);
+    return run.start[0] == place[0] && run.start[1] == place[1] &&
+           place[2] < std::int64_t{run.start[2]} + run.length;
   }
 
   bool is_bar(const LimbHub& hub) const {

@@ -41,12 +41,12 @@ struct LimbHubsInput {
 
 /// Of what is nearest to a line, a limb has what makes about a tube.  From its middle on towards a joint it ends
 /// where that suddenly grows, and a link or loop that is shorter than thick is none, nor a link whose slices are
-/// twice as wide as thick.  What no limb has, as far as it hangs together in the solid, is a hub where it is clearly
-/// more than a ball as thick as the thickest limb there, and still more than one as the next: lines may run beside its middle, from arm to arm, in another
-/// way at each spacing.  As large as an ellipsoid with its moments, it takes what is nearest to lines in that, too,
-/// and so on, and leaves what is not; one that would then hold the free end of a limb that is longer than the hub is
-/// thick is none, nor one that fills less than 0.45 of it, a network, is 3.5 times as long as wide, a bar, or has its middle
-/// outside the solid, a ring.
+/// twice as wide as thick.  What no limb has, as far as it hangs together in the solid, is a hub where it is 1.4
+/// times as thick, as a ball, as the thickest limb there, and 1.55 times as the others: lines may run beside its
+/// middle, from arm to arm, in another way at each spacing.  As large as an ellipsoid with its moments, it takes what
+/// is nearest to lines in that, too, and so on, and leaves what is not; one that would then hold the free end of a
+/// limb that is longer than the hub is thick is none, nor one that fills less than 0.45 of it, a network, is 3.5
+/// times as long as wide, a bar, or has its middle outside the solid, a ring.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core
