@@ -49,6 +49,9 @@ constexpr double kOnwards = 0.6;
 // A sheet turns the slopes of the depth, of which sheet_normal() sums four, by at least so much.
 constexpr double kSheet = 0.3;
 
+// The least time of a front, of which is only known that it stands there.
+constexpr float kStands = 1e-6F;
+
 // How far a sheet's normal lets one get along it by a step in a direction, of which the normal has so much.
 double advance(double normal) {
   return std::sqrt(std::max(0.0, 1 - normal * normal));
@@ -112,7 +115,7 @@ class Thinning {
 
   // A front counts from the next wave on: what one wave removes has no order.
   void wave_ends() {
-    for (const Cell edge : fronts_) reached_[edge] = std::abs(reached_[edge]);
+    for (const Cell edge : fronts_) reached_[edge] = std::max(std::abs(reached_[edge]), kStands);
     fronts_.clear();
   }
 
@@ -125,8 +128,9 @@ class Thinning {
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
   void removed(Cell vertex, Cell edge, double now) {
-    if (DualComplex::dimension(edge) != 1) return pass(vertex, edge);
-    const double birth = std::abs(static_cast<double>(reached_[edge]));
+    if (DualComplex::dimension(edge) == 2) pass(vertex, edge);
+    if (DualComplex::dimension(edge) != 1) return;
+    const auto birth = static_cast<double>(reached(edge));
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
     const double before = line.length();
@@ -171,29 +175,24 @@ class Thinning {
     return slope;
   }
 
-  // The front goes on over a cube or a square, and reaches what bounds it.
-  void pass(Cell cell, Cell coface) {
-    if (DualComplex::dimension(coface) == 3) {
-      const double when = static_cast<double>(depth_[DualComplex::cube_of(coface)]);
-      complex_.for_each_face(cell, [&](Cell edge) { reach(edge, when); });
-      return;
-    }
-    const double when = crossed(cell, coface);
-    complex_.for_each_face(coface, [&](Cell edge) { reach(edge, when); });
-    complex_.for_each_face(cell, [&](Cell vertex) {
-      bared_at_[vertex] = std::max(bared_at_[vertex], static_cast<float>(when));
-    });
+  // The front goes on over a square, and reaches what bounds it.
+  void pass(Cell edge, Cell square) {
+    const bool passed = is_passed(edge, square);
+    if (passed && reached_[edge] <= kStands) return;
+    const float when = passed ? reached(edge) : static_cast<float>(crossed(edge, square));
+    complex_.for_each_face(square,
+                           [&](Cell face) { reached_[face] = -std::max(std::abs(reached_[face]), when); });
+    complex_.for_each_face(edge, [&](Cell vertex) { bared_at_[vertex] = std::max(bared_at_[vertex], when); });
   }
 
-  // Negative until the front stands there.
-  void reach(Cell edge, double when) {
-    reached_[edge] = -std::max(std::abs(reached_[edge]), static_cast<float>(when));
+  // When the front did, if not before the cubes about an edge went.
+  float reached(Cell edge) {
+    return std::max(std::abs(reached_[edge]), static_cast<float>(radius_about(complex_, depth_, edge)));
   }
 
   // When the front that stands at an edge of a square has crossed that.
   double crossed(Cell edge, Cell square) {
-    const double before = std::abs(static_cast<double>(reached_[edge]));
-    if (is_passed(edge, square)) return before;
+    const auto before = static_cast<double>(reached(edge));
     const std::uint32_t cube = DualComplex::cube_of(square), place = DualComplex::place_of(square);
     const auto side = [&](std::size_t axis, bool upper) {
       const std::uint32_t weight = DualComplex::kWeight[axis];
@@ -206,8 +205,9 @@ class Thinning {
     const Vec3 n = sheet_normal(square, across);
     double best = before + advance(n[along]);
     for (const bool upper : {false, true}) {
-      const auto since = static_cast<double>(reached_[side(beside, upper)]);
-      if (since <= 0 || since > best) continue;
+      const Cell other = side(beside, upper);
+      if (reached_[other] <= 0) continue;
+      const auto since = static_cast<double>(reached(other));
       const double sign = (edge == side(along, upper)) ? 1 : -1;
       best = std::min(best, front_time(before, since, n[along], sign * n[beside]));
     }
@@ -412,9 +412,9 @@ class Thinning {
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
   std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line
-  CellValues<float> reached_{complex_, 1, 0};            // when the front did
-  std::vector<Cell> fronts_;                             // where it stands since this wave
-  CellValues<float> bared_at_{complex_, 0, 0};           // when squares and edges at a vertex went
+  CellValues<float> reached_{complex_, 1, 0};   // when a front on a sheet did; negative until it stands there
+  std::vector<Cell> fronts_;                    // where it stands since this wave
+  CellValues<float> bared_at_{complex_, 0, 0};  // when squares and edges at a vertex went
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };
 
