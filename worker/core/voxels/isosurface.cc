@@ -17,7 +17,6 @@ namespace affskel::core {
 namespace {
 
 constexpr double kCellsAlongTheSolid = 200;
-constexpr double kMaxCubes = 16777216;
 // More triangles before edges are collapsed add nothing to what is left, but take memory: a share of those wanted.
 constexpr double kTrianglesBefore = 8;
 // Triangles that a cube's edge squared of the surface gets, as measured on balls and bodies, per side of a voxel between
@@ -120,18 +119,12 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
   const double longest = inside.reach().longest_side() + 1;
   const double enough = std::sqrt(kTrianglesPerSide * static_cast<double>(inside.sides()) /
                                   (kTrianglesBefore * static_cast<double>(options.max_triangles)));
-  found.resolution =
-      options.resolution > 0 ? options.resolution : std::max({1.0, longest / kCellsAlongTheSolid, enough});
+  found.resolution = std::max({1.0, longest / kCellsAlongTheSolid, enough});
   // The outermost nodes are a voxel beside the inner ones, or farther; at a resolution of 1 all are voxels.
   CubeLattice lattice{inside.reach().low - Vec3{1, 1, 1}, found.resolution, {}};
-  double cubes = 1;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double along = std::ceil((inside.reach().sides()[a] + 2) / found.resolution);
-    cubes *= along;
-    if (cubes > kMaxCubes)
-      throw CoreError(CoreError::Code::kLimit, "the resolution is too fine for so large an image");
-    lattice.nodes[a] = static_cast<std::size_t>(along) + 1;
-  }
+  for (std::size_t a = 0; a < 3; ++a)
+    lattice.nodes[a] =
+        static_cast<std::size_t>(std::ceil((inside.reach().sides()[a] + 2) / found.resolution)) + 1;
   found.mesh = sign_surface(inside, lattice, options.context);
   if (found.mesh.triangles.size() > options.max_triangles) {
     // collapse_edges works on meshes in x > 0.

@@ -10,18 +10,17 @@
 namespace affskel::core {
 
 struct IsosurfaceOptions {
-  double isovalue = 0;  ///< at the surface
-  double resolution =
-      0;  ///< edge of the cubes that the surface is sought in, voxels; 0: a 200th of the longest
-          ///< side of the solid's box, but no less than one, nor than gives eight times max_triangles
+  double isovalue = 0;                  ///< at the surface
   std::size_t max_triangles = 20000;    ///< of a finer surface edges are collapsed (collapse_edges)
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
 struct Isosurface {
-  Mesh mesh;              ///< closed, manifold, outward; in the units of the image's places
-  bool below = false;     ///< whether the solid is where values are below the isovalue
-  double resolution = 0;  ///< as used, voxels
+  Mesh mesh;           ///< closed, manifold, outward; in the units of the image's places
+  bool below = false;  ///< whether the solid is where values are below the isovalue
+  /// Edge of the cubes that the surface is sought in, voxels: a 200th of the longest side of the solid's box, but no less
+  /// than one, nor than gives eight times max_triangles.
+  double resolution = 0;
 };
 
 /// The least and the greatest value.
@@ -32,8 +31,7 @@ std::pair<double, double> value_range(const VoxelImage& image);
 /// it reaches them it ends within a voxel behind.  At a resolution of 1 the voxels alone decide its topology, and each is
 /// on the side that its value says as long as no edges are collapsed; at a coarser one, values at places so far apart
 /// (sign_surface).  It does not cross itself.
-/// @throws CoreError kBadInput when the image has no such value, or one side has no voxel, kLimit for more than 2^24
-///   cubes, kCancelled.
+/// @throws CoreError kBadInput when the image has no such value, or one side has no voxel, kCancelled.
 Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options);
 
 }  // namespace affskel::core
