@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kUnpackedAtOnce = std::size_t{1} << 18;  // bytes that are unpacked at once
 constexpr int kMaxZstdWindow = 25;                             // binary logarithm of bytes
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 31;
+constexpr std::uint64_t kMaxGrowth = 100;  // times the packed bytes, above the first MiB
 
 [[noreturn]] void damaged(const char* how, const std::string& why) {
   refuse(std::string("compressed by ") + how + ", and damaged: " + why);
@@ -94,8 +96,8 @@ void decompress_frames(std::string_view bytes, Unpacked& out) {
 
 }  // namespace
 
-std::uint64_t max_unpacked(std::size_t packed, const UnpackOptions& options) {
-  return std::min(options.max_bytes, (std::uint64_t{1} << 20) + options.max_growth * packed);
+std::uint64_t max_unpacked(std::size_t packed) {
+  return std::min(kMaxBytes, (std::uint64_t{1} << 20) + kMaxGrowth * packed);
 }
 
 std::string_view compression_of(std::string_view bytes) {
@@ -110,8 +112,8 @@ std::string_view unpacked_name(std::string_view name) {
   return name;
 }
 
-std::string unpack(std::string_view bytes, const UnpackOptions& options) {
-  Unpacked out(max_unpacked(bytes.size(), options));
+std::string unpack(std::string_view bytes) {
+  Unpacked out(max_unpacked(bytes.size()));
   if (compression_of(bytes) == "zstd")
     decompress_frames(bytes, out);
   else
