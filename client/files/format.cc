@@ -1,10 +1,9 @@
 #include "client/files/format.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <vector>
 
+#include "base/lower_case.h"
 #include "client/base/error.h"
 
 namespace affskel::client {
@@ -15,12 +14,6 @@ constexpr std::array kThickness = {FileFormat::kPly, FileFormat::kVtp};
 constexpr std::array kSkeleton = {FileFormat::kVtp, FileFormat::kPly, FileFormat::kObj, FileFormat::kStl,
                                   FileFormat::kOff, FileFormat::kCsv, FileFormat::kXyz};
 constexpr std::array kPage = {FileFormat::kHtml};
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 }  // namespace
 
@@ -55,12 +48,12 @@ std::span<const FileFormat> page_formats() {
 }
 
 std::string lower_extension(const std::filesystem::path& file) {
-  return lower(file.extension().string());
+  return base::lower_case(file.extension().string());
 }
 
 std::string Destination::extension() const {
   if (format.empty()) return is_stdout() ? std::string() : lower_extension(file);
-  return lower(format.starts_with('.') ? format : "." + format);
+  return base::lower_case(format.starts_with('.') ? format : "." + format);
 }
 
 FileFormat choose_format(const Destination& destination, std::span<const FileFormat> possible,

@@ -1,8 +1,8 @@
 #include "client/web/request_guard.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "base/lower_case.h"
 #include "client/web/api_answers.h"
 
 namespace affskel::client {
@@ -49,10 +49,7 @@ std::optional<std::string> host_name(std::string_view host) {
                                              std::all_of(port.begin() + 1, port.end(),
                                                          [](char c) { return c >= '0' && c <= '9'; }));
   if (name.empty() || !port_is_fine) return std::nullopt;
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
+  return base::lower_case(name);
 }
 
 std::optional<http::Response> refuse_foreign(const http::Request& request, const HostRule& rule) {

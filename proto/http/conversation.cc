@@ -13,10 +13,11 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
-#include <cctype>
 #include <fstream>
 #include <limits>
 #include <sstream>
+
+#include "base/lower_case.h"
 
 namespace affskel::http {
 namespace {
@@ -66,10 +67,7 @@ class PacedTransfer {
 };
 
 std::string lower(beast::string_view text) {
-  std::string small(text);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
+  return base::lower_case({text.data(), text.size()});
 }
 
 using HeadParser = protocol::request_parser<protocol::empty_body>;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lower_case.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"
@@ -15,7 +16,7 @@ namespace {
 
 // As MetaIO has it.
 bool says_true(const VoxelHeader& header, const char* name, bool usual = false) {
-  const std::string word = lower_case(header.word(name));
+  const std::string word = base::lower_case(header.word(name));
   return word.empty() ? usual : word.front() == 't' || word.front() == '1';
 }
 
@@ -42,7 +43,7 @@ AffineMap metaimage_place(const VoxelHeader& header, std::size_t axes) {
 }  // namespace
 
 bool is_metaimage(std::string_view bytes) {
-  const std::string head = lower_case(bytes.substr(0, 4096));
+  const std::string head = base::lower_case(bytes.substr(0, 4096));
   return (head.starts_with("objecttype") || head.starts_with("ndims") || head.starts_with("comment")) &&
          head.find("dimsize") != std::string::npos;
 }
@@ -66,7 +67,7 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
     const std::size_t sign = text.find('=');
     if (sign == std::string_view::npos) return true;
     header.set(text.substr(0, sign), text.substr(sign + 1), line);
-    return lower_case(without_blanks(text.substr(0, sign))) != "elementdatafile";
+    return base::lower_case(without_blanks(text.substr(0, sign))) != "elementdatafile";
   });
   if (!header.has("elementdatafile")) fail_at(0, "the header does not end");
   if (!says_true(header, "binarydata", true))
@@ -75,7 +76,7 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
   if (header.word("headersize", "0") != "0")
     fail_at(header.line("headersize"), "skips bytes before its numbers, which is not read");
   std::optional<std::string> other;
-  if (const std::string name = header.word("elementdatafile"); lower_case(name) != "local") {
+  if (const std::string name = header.word("elementdatafile"); base::lower_case(name) != "local") {
     other = read_numbers_beside(name, header.line("elementdatafile"), beside);
   }
   VoxelImage image;
@@ -83,7 +84,7 @@ VoxelImage parse_metaimage(std::string_view bytes, const ReadBeside& beside) {
   image.size = sizes_of(sizes, header.line("dimsize"));
   if (header.has("elementnumberofchannels") && header.word("elementnumberofchannels") != "1")
     fail_at(header.line("elementnumberofchannels"), "the image has more than one value at a place");
-  const auto kind = kTypes.find(lower_case(header.word("elementtype")));
+  const auto kind = kTypes.find(base::lower_case(header.word("elementtype")));
   if (kind == kTypes.end())
     fail_at(header.line("elementtype"), "unknown type of values '" + header.word("elementtype") + "'");
   image.place = metaimage_place(header, sizes.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/coding.h"
+#include "base/lower_case.h"
 #include "core/files/read/unpack.h"
 #include "core/files/read/voxel_header.h"
 #include "core/files/read/voxel_numbers.h"
@@ -32,7 +33,7 @@ base::NumberKind nrrd_kind(const VoxelHeader& header) {
        {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
       {base::kNumberKind<float>, {"float"}},
       {base::kNumberKind<double>, {"double"}}};
-  const std::string type = lower_case(header.word("type"));
+  const std::string type = base::lower_case(header.word("type"));
   for (const auto& [kind, names] : kNames)
     if (std::find(names.begin(), names.end(), type) != names.end()) return kind;
   fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
@@ -76,8 +77,8 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   image.place = nrrd_place(header, sizes.size());
   const std::size_t count = voxels_of(image.size);
   const base::NumberKind kind = nrrd_kind(header);
-  const bool big = lower_case(header.word("endian")) == "big";
-  const std::string encoding = lower_case(header.word("encoding", "raw"));
+  const bool big = base::lower_case(header.word("endian")) == "big";
+  const std::string encoding = base::lower_case(header.word("encoding", "raw"));
   for (const char* name : {"line skip", "lineskip", "byte skip", "byteskip"})
     if (header.word(name, "0") != "0")
       fail_at(header.line(name), "skips lines or bytes before its numbers, which is not read");

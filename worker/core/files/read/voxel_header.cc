@@ -1,21 +1,14 @@
 #include "core/files/read/voxel_header.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "base/lower_case.h"
 #include "core/text/text_rows.h"
 
 namespace affskel::core {
 
-std::string lower_case(std::string_view text) {
-  std::string made(text);
-  std::transform(made.begin(), made.end(), made.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return made;
-}
-
 void VoxelHeader::set(std::string_view name, std::string_view value, std::uint64_t line) {
-  fields_[lower_case(without_blanks(name))] = {std::string(without_blanks(value)), line};
+  fields_[base::lower_case(without_blanks(name))] = {std::string(without_blanks(value)), line};
 }
 
 std::string VoxelHeader::word(const char* name, const char* usual) const {

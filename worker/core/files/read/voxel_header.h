@@ -9,9 +9,6 @@
 
 namespace affskel::core {
 
-/// The text in small letters.
-std::string lower_case(std::string_view text);
-
 /// Fields of a header in text, each with its line; names in small letters.
 class VoxelHeader {
  public:
