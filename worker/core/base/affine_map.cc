@@ -17,7 +17,7 @@ std::array<Vec3, 3> scaled_rows(const AffineMap& map, double& unit) {
   std::frexp(unit, &exponent);
   unit = std::ldexp(1.0, exponent);
   std::array<Vec3, 3> rows = map.rows;
-  for (Vec3& row : rows) row = {row.x / unit, row.y / unit, row.z / unit};
+  for (Vec3& row : rows) row = row / unit;
   return rows;
 }
 
@@ -119,10 +119,9 @@ Vec3 NormalMap::operator()(const Vec3& n) const {
   // Scaled first: squares of tiny or huge vectors would leave the range.
   const double big = largest_component(mapped);
   if (!(big > 0)) return {};
-  const Vec3 w = {mapped.x / big, mapped.y / big, mapped.z / big};
-  const double length = turned_ ? -norm(w) : norm(w);
+  const Vec3 w = mapped / big;
   // Adding 0 turns a negative zero into a plain one.
-  return Vec3{w.x / length, w.y / length, w.z / length} + Vec3{};
+  return w / (turned_ ? -norm(w) : norm(w)) + Vec3{};
 }
 
 }  // namespace affskel::core

@@ -35,6 +35,9 @@ inline Vec3 operator-(const Vec3& a) {
 inline Vec3 operator*(double s, const Vec3& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
+inline Vec3 operator/(const Vec3& a, double s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
 inline double dot(const Vec3& a, const Vec3& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
@@ -53,6 +56,11 @@ inline double largest_component(const Vec3& a) {
 
 inline double norm(const Vec3& a) {
   return std::sqrt(dot(a, a));
+}
+
+inline double squared_distance(const Vec3& a, const Vec3& b) {
+  const Vec3 way = a - b;
+  return dot(way, way);
 }
 
 }  // namespace affskel::core

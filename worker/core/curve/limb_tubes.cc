@@ -132,9 +132,9 @@ class LimbTubes {
     double least = std::numeric_limits<double>::infinity();
     std::size_t nearest = 0;
     for (std::size_t n = 0; n < limb.vertices.size(); ++n) {
-      const Vec3 way = at - places_[limb.vertices[n]];
-      if (dot(way, way) >= least) continue;
-      least = dot(way, way);
+      const double here = squared_distance(at, places_[limb.vertices[n]]);
+      if (here >= least) continue;
+      least = here;
       nearest = n;
     }
     return nearest;

@@ -26,9 +26,8 @@ std::vector<Part> parse(std::string_view spec) {
 Vec3 direction_of(const Vec3& v) {
   const double big = largest_component(v);
   if (big == 0) return {};
-  const Vec3 w{v.x / big, v.y / big, v.z / big};
-  const double length = norm(w);
-  return {w.x / length, w.y / length, w.z / length};
+  const Vec3 w = v / big;
+  return w / norm(w);
 }
 
 void add_face(const Vec3& a, const Vec3& b, const Vec3& c, std::uint64_t f, DirectionSet& set) {

@@ -37,7 +37,7 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
                                   dot(gradient, gradient)) < 0.25 * min_strength)
     return {};
   Matrix3 scaled = hessian_of(point);
-  for (Vec3& column : scaled) column = {column.x / largest, column.y / largest, column.z / largest};
+  for (Vec3& column : scaled) column = column / largest;
   const SymmetricEigen eigen = symmetric_eigen(scaled);
   if (eigen.values[2] >= 0) return {};
   return {floats_of(eigen.vectors[2]), floats_of(eigen.vectors[0]),

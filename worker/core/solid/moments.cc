@@ -96,7 +96,7 @@ Moments solid_moments(const Mesh& mesh) {
   Moments result;
   const double six = volume.value();
   result.volume = six / 6;
-  result.centroid = centre + Vec3{x.value() / (4 * six), y.value() / (4 * six), z.value() / (4 * six)};
+  result.centroid = centre + Vec3{x.value(), y.value(), z.value()} / (4 * six);
   Symmetric second;
   for_each_tetrahedron(mesh, result.centroid, [&](const Corners& c) {
     const double v = c.six_volumes();

@@ -26,9 +26,7 @@ Box arc_box(const Vec3& v, const Vec3& p, const Vec3& q) {
   const double size_p = largest_component(to_p), size_q = largest_component(to_q);
   if (!(size_p > 0 && size_q > 0 && std::isfinite(size_p) && std::isfinite(size_q))) return everything;
   // The largest component first: squares must not leave the range of a double.
-  const Vec3 a = {to_p.x / size_p, to_p.y / size_p, to_p.z / size_p};
-  const Vec3 b = {to_q.x / size_q, to_q.y / size_q, to_q.z / size_q};
-  const Vec3 unit_p = unit(a), unit_q = unit(b);
+  const Vec3 unit_p = unit(to_p / size_p), unit_q = unit(to_q / size_q);
   const double rise = 1 - norm(0.5 * (unit_p + unit_q));
   return box_of(std::array{unit_p, unit_q}).widened(rise + 16 * kEps);
 }

@@ -12,15 +12,6 @@
 #include "core/base/error.h"
 
 namespace affskel::core {
-namespace {
-
-double squared_distance(const Vec3& a, const Vec3& b) {
-  const Vec3 way = a - b;
-  return dot(way, way);
-}
-
-}  // namespace
-
 PointIndex::PointIndex(std::span<const Vec3> points) {
   if (points.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw CoreError(CoreError::Code::kLimit, "too many points to index: " + std::to_string(points.size()));

@@ -187,7 +187,8 @@ class Marcher {
     if (q.size() == 3) {
       mesh_.triangles.push_back({q[0], q[1], q[2]});
     } else if (q.size() == 4 && !has_rim_) {
-      const bool first = squared_distance(q[0], q[2]) <= squared_distance(q[1], q[3]);
+      const std::vector<Vec3>& at = mesh_.points;
+      const bool first = squared_distance(at[q[0]], at[q[2]]) <= squared_distance(at[q[1]], at[q[3]]);
       mesh_.triangles.push_back(first ? Triangle{q[0], q[1], q[2]} : Triangle{q[0], q[1], q[3]});
       mesh_.triangles.push_back(first ? Triangle{q[0], q[2], q[3]} : Triangle{q[1], q[2], q[3]});
     } else {
@@ -198,11 +199,6 @@ class Marcher {
         mesh_.triangles.push_back({q[v], q[(v + 1) % q.size()], middle});
       }
     }
-  }
-
-  double squared_distance(std::uint32_t v, std::uint32_t w) const {
-    const Vec3 along = mesh_.points[w] - mesh_.points[v];
-    return dot(along, along);
   }
 
   std::uint32_t add_vertex(const Vec3& x) {

@@ -131,7 +131,7 @@ class OffReader {
     const Vec3 p{coordinate(0), coordinate(1), coordinate(2)};
     if (!homogeneous_) return p;
     const double w = coordinate(3);
-    const Vec3 at{p.x / w, p.y / w, p.z / w};
+    const Vec3 at = p / w;
     if (!is_finite(at)) fail_at(rows_.line(), "vertex " + std::to_string(v) + " lies at infinity");
     return at;
   }

@@ -70,8 +70,7 @@ class Tidier {
     for (const Triangle& t : mesh_.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = t[k], b = t[(k + 1) % 3];
-        const Vec3 along = mesh_.points[b] - mesh_.points[a];
-        const double square = dot(along, along);
+        const double square = squared_distance(mesh_.points[a], mesh_.points[b]);
         if (a < b && square < limit_) edges.push_back({square, a, b});
       }
     }
@@ -186,8 +185,7 @@ class Tidier {
   }
 
   double side_square(const Triangle& t, std::size_t k) const {
-    const Vec3 side = mesh_.points[t[(k + 1) % 3]] - mesh_.points[t[k]];
-    return dot(side, side);
+    return squared_distance(mesh_.points[t[k]], mesh_.points[t[(k + 1) % 3]]);
   }
 
   std::size_t longest_side(const Triangle& t) const {
