@@ -35,22 +35,30 @@ std::vector<double> everywhere(const Lattice& lattice, const DirectionSet& direc
                         [&](const Neighbourhood& normals) { return kOperator(normals, lattice.spacing); });
 }
 
-constexpr std::array kOperators = {
-    ShockOperatorInfo{ShockOperator::kIntermediate, "intermediate", intermediate_difference_threshold,
-                      everywhere<intermediate_difference_divergence>},
-    ShockOperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
-                      everywhere<central_difference_divergence>},
-    ShockOperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel",
-                      [](double) { return base::kZuckerHummelThreshold; },
-                      everywhere<zucker_hummel_divergence>},
-    ShockOperatorInfo{ShockOperator::kSobel, "sobel", [](double) { return kSobelThreshold; },
-                      everywhere<sobel_divergence>},
-    ShockOperatorInfo{ShockOperator::kFlux, "flux", [](double) { return kAverageOutwardFluxThreshold; },
-                      everywhere<average_outward_flux>},
+struct OperatorInfo {
+  ShockOperator shock_operator;
+  const char* name;
+  double (*default_threshold)(double spacing);
+  std::vector<double> (*divergence)(const Lattice&, const DirectionSet&, const OptimalDirections&,
+                                    ExecutionContext*);
 };
 
-const ShockOperatorInfo& info_of(ShockOperator shock_operator) {
-  const auto found = std::find_if(kOperators.begin(), kOperators.end(), [&](const ShockOperatorInfo& info) {
+// A new operator is a row of this table, and a file of its own.
+constexpr std::array kOperators = {
+    OperatorInfo{ShockOperator::kIntermediate, "intermediate", intermediate_difference_threshold,
+                 everywhere<intermediate_difference_divergence>},
+    OperatorInfo{ShockOperator::kCentral, "central", central_difference_threshold,
+                 everywhere<central_difference_divergence>},
+    OperatorInfo{ShockOperator::kZuckerHummel, "zucker-hummel",
+                 [](double) { return base::kZuckerHummelThreshold; }, everywhere<zucker_hummel_divergence>},
+    OperatorInfo{ShockOperator::kSobel, "sobel", [](double) { return kSobelThreshold; },
+                 everywhere<sobel_divergence>},
+    OperatorInfo{ShockOperator::kFlux, "flux", [](double) { return kAverageOutwardFluxThreshold; },
+                 everywhere<average_outward_flux>},
+};
+
+const OperatorInfo& info_of(ShockOperator shock_operator) {
+  const auto found = std::find_if(kOperators.begin(), kOperators.end(), [&](const OperatorInfo& info) {
     return info.shock_operator == shock_operator;
   });
   if (found == kOperators.end()) throw CoreError(CoreError::Code::kInternal, "unknown shock operator");
@@ -59,12 +67,8 @@ const ShockOperatorInfo& info_of(ShockOperator shock_operator) {
 
 }  // namespace
 
-std::span<const ShockOperatorInfo> shock_operators() {
-  return kOperators;
-}
-
 std::optional<ShockOperator> shock_operator_named(std::string_view name) {
-  for (const ShockOperatorInfo& info : kOperators) {
+  for (const OperatorInfo& info : kOperators) {
     if (name == info.name) return info.shock_operator;
   }
   return std::nullopt;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,22 +13,10 @@ namespace affskel::core {
 /// The differential operators that find shocks as large |H|, H = div n.
 enum class ShockOperator { kIntermediate, kCentral, kZuckerHummel, kSobel, kFlux };
 
-/// All that the program knows of an operator.
-struct ShockOperatorInfo {
-  ShockOperator shock_operator;
-  const char* name;                             ///< on the command line and in files
-  double (*default_threshold)(double spacing);  ///< for |H|, see default_threshold()
-  std::vector<double> (*divergence)(const Lattice&, const DirectionSet&, const OptimalDirections&,
-                                    ExecutionContext*);  ///< H, see divergence()
-};
-
-/// The table of all operators: a new one is a row of it, and a file of its own.
-std::span<const ShockOperatorInfo> shock_operators();
-
 /// The operator of that name; nothing when there is none.
 std::optional<ShockOperator> shock_operator_named(std::string_view name);
 
-/// The operator's name on the command line, see shock_operators().
+/// The operator's name on the command line and in files.
 const char* name_of(ShockOperator shock_operator);
 
 /// The operator's default threshold for |H|; see its header for unit and origin.

@@ -13,16 +13,12 @@ namespace {
 using Indices = NormalBlock::Indices;
 
 std::vector<ShockOperator> all() {
-  std::vector<ShockOperator> list;
-  for (const ShockOperatorInfo& info : shock_operators()) list.push_back(info.shock_operator);
-  return list;
+  return {ShockOperator::kIntermediate, ShockOperator::kCentral, ShockOperator::kZuckerHummel,
+          ShockOperator::kSobel, ShockOperator::kFlux};
 }
 
 TEST(ShockOperators, HaveNamesThatFindThem) {
-  ASSERT_EQ(shock_operators().size(), 5U);
-  for (const ShockOperatorInfo& info : shock_operators()) {
-    EXPECT_EQ(shock_operator_named(info.name), info.shock_operator);
-  }
+  for (const ShockOperator one : all()) EXPECT_EQ(shock_operator_named(name_of(one)), one);
   EXPECT_EQ(shock_operator_named("chords"), std::nullopt);
   EXPECT_EQ(shock_operator_named(""), std::nullopt);
 }
