@@ -35,8 +35,6 @@ class PieceFinder {
  public:
   explicit PieceFinder(const PieceInput& input);
   ~PieceFinder();
-  PieceFinder(const PieceFinder&) = delete;
-  PieceFinder& operator=(const PieceFinder&) = delete;
 
   /// @param d of unit length.
   ChordPiece find(const Vec3& x, const Vec3& d);

@@ -55,8 +55,6 @@ class ChordDescent {
  public:
   explicit ChordDescent(const PieceInput& input);
   ~ChordDescent();
-  ChordDescent(const ChordDescent&) = delete;
-  ChordDescent& operator=(const ChordDescent&) = delete;
 
   /// Goes down from the plane through x nearest to `start`'s that touches start's saddles.  Erosion infinite
   /// where x lies outside, within rounding, and when the way down does not promise to lead below the bound.
