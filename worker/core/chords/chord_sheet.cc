@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"

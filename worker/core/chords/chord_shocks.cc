@@ -8,7 +8,6 @@
 #include "core/chords/chord_shocks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

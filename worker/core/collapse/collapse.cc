@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/none.h"

@@ -1,6 +1,5 @@
 #include "core/collapse/dual_complex.h"
 
-#include <algorithm>
 #include <iterator>
 #include <unordered_map>
 

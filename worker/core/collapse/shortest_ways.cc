@@ -1,7 +1,5 @@
 #include "core/collapse/shortest_ways.h"
 
-#include <cstdint>
-#include <functional>
 #include <queue>
 #include <unordered_map>
 #include <utility>

@@ -5,11 +5,9 @@
 #include "core/contour/dual_contour.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/base/matrix3.h"
 #include "core/base/unit.h"
-#include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/patch_senses.h"
 #include "core/solid/solid_membership.h"

@@ -1,7 +1,6 @@
 #include "core/curve/limb_forks.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace affskel::core {
 namespace {

@@ -7,7 +7,6 @@
 #include <functional>
 #include <numeric>
 #include <queue>
-#include <span>
 #include <utility>
 #include <vector>
 

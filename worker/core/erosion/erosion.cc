@@ -1,7 +1,6 @@
 #include "core/erosion/erosion.h"
 
 #include <atomic>
-#include <cmath>
 #include <vector>
 
 #include "base/mutex.h"

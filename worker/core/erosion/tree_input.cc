@@ -1,7 +1,6 @@
 #include "core/erosion/tree_input.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/parallel.h"

@@ -16,7 +16,6 @@
 #include "core/infimum/chord_piece.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 

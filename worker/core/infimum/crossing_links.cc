@@ -1,7 +1,6 @@
 #include "core/infimum/crossing_links.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace affskel::core {
 namespace {

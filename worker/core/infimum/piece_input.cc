@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/base/basis.h"
 #include "core/base/disjoint_sets.h"

@@ -1,7 +1,6 @@
 #include "core/infimum/section_loops.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/base/basis.h"
 

@@ -1,7 +1,6 @@
 #include "core/lattice/lattice_memory.h"
 
 #include <algorithm>
-#include <string>
 
 #include "base/number_text.h"
 

@@ -7,7 +7,6 @@
 #include "core/base/error.h"
 #include "core/base/plain_math.h"
 #include "core/base/split_mix64.h"
-#include "core/mesh/box.h"
 #include "core/mesh/coincident_points.h"
 
 namespace affskel::core {

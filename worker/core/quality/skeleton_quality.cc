@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 
 #include "core/lattice/lattice_coordinates.h"
 #include "core/quality/chance_level.h"

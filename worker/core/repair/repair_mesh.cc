@@ -14,7 +14,6 @@
 #include "core/repair/flat_sheet.h"
 #include "core/repair/orient_soup.h"
 #include "core/repair/wrap_solid.h"
-#include "core/solid/solid.h"
 #include "core/solid/surface_samples.h"
 #include "core/solid/turn_as_in.h"
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "core/base/parity_rows.h"
 #include "core/collapse/collapse.h"

@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <span>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/none.h"

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/collapse/collapse.h"
@@ -17,7 +16,6 @@
 #include "core/mesh/box.h"
 #include "core/mesh/laplacian.h"
 #include "core/ridge/bored_cells.h"
-#include "core/ridge/filled_tunnels.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_anchors.h"
 #include "core/ridge/ridge_crossings.h"

@@ -1,7 +1,6 @@
 #include "core/ridge/skeleton_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>

@@ -33,7 +33,6 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "base/number_text.h"
 #include "core/base/error.h"

@@ -3,7 +3,6 @@
 #include "core/voxels/sign_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>

@@ -9,7 +9,6 @@
 #include "base/quoted.h"
 #include "core/base/error.h"
 #include "core/files/read/shape_parsers.h"
-#include "core/files/read/voxel_parsers.h"
 #include "core/mesh/quad_diagonals.h"
 #include "core/text/text_rows.h"
 #include "core/voxels/isosurface.h"

@@ -1,7 +1,6 @@
 #include "core/files/read/ply_header.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <limits>
 #include <set>

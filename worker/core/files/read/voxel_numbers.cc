@@ -1,7 +1,6 @@
 #include "core/files/read/voxel_numbers.h"
 
 #include <cmath>
-#include <string>
 
 #include "core/base/error.h"
 #include "core/text/text_rows.h"
