@@ -49,6 +49,7 @@ std::string busy_text(std::size_t workers, const Rivals& rivals) {
 }
 
 constexpr std::uint64_t kMegabyte = 1'000'000;
+constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
 
 /// Why none of the workers is offered a task that needs so much memory; "" when one is, or there are none.
 std::string too_large_for(const std::vector<WorkerRegistry::Present>& workers, std::uint64_t need) {
@@ -74,7 +75,7 @@ class JobView::Reasons {
     const bool active = job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_RUNNING;
     if (const std::uint64_t wanted = active ? store_.room_wanted(job.id()) : 0; wanted > 0) {
       return job.set_waiting_reason("the server's disk is full; it tries again once " +
-                                    std::to_string((wanted + kMegabyte - 1) / kMegabyte) + " MB are free");
+                                    std::to_string((wanted + kMebibyte - 1) / kMebibyte) + " MiB are free");
     }
     if (!active || !job.waiting_reason().empty()) return;
     const std::vector<WorkerRegistry::Present>& workers = connected();

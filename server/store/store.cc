@@ -84,8 +84,10 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
       readers_(file_),
       schema_version_(migrate(db_)),
       disk_full_(!reserve_.whole()) {
-  if (disk_full_) live_on_reserve();
-  disk_full_told_ = disk_full_.load();
+  if (disk_full_) {
+    live_on_reserve();
+    tell_full();
+  }
   room_wanted_ = reserve_.wanted();
   let_pages_go(db_, options_.free_bytes(base::directory_of(file_)));
   write([this](Tx& tx) {

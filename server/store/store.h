@@ -61,8 +61,8 @@ class Store final : public TokenSource {
   int schema_version() const { return schema_version_; }
   /// Whether the disk has no room for more than bookkeeping.
   bool disk_full() const { return disk_full_; }
-  /// Bytes that have to be free before it is tried again to write for a job, where the disk is full, or something of the
-  /// job was refused by it and has not been written since; else 0.
+  /// Bytes that have to be free before it is tried again to write for a job, where the disk is full, or something of
+  /// the job was refused by it and has not been written since; else 0.
   std::uint64_t room_wanted(const std::string& job_id);
   /// Whether the database was removed or replaced by another file since it was opened.  Nothing is
   /// acknowledged from then on, and the process that runs the store should end.
@@ -274,8 +274,9 @@ class Store final : public TokenSource {
       ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void make_room(const Changes& undone);
   bool has_room() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
-  void forget_stuck(const std::set<std::string>& jobs);
+  void note_stuck(const Changes& made);
   void forget_ended_stuck();
+  void tell_full();
   void tell_room();
   void live_on_reserve() ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_);
   void notify_room();
@@ -308,11 +309,11 @@ class Store final : public TokenSource {
   std::atomic<bool> disk_full_ = false;                    // the reserve is given away
   std::atomic<bool> room_again_ = false;                   // and the callers were not told yet
   std::atomic<bool> untidy_ = true;                        // there may be something for tidy()
-  std::atomic<bool> disk_full_told_ = false;               // by the log, and not yet that there is room
   std::atomic<std::uint64_t> room_wanted_ = 0;             // see room_wanted()
   base::Mutex stuck_mutex_;
-  /// Jobs whose last write of more than bookkeeping found the disk full.
-  std::set<std::string> stuck_ ABSL_GUARDED_BY(stuck_mutex_);
+  /// Tasks of which the last that was to be written, and is more than bookkeeping, found the disk full, and their jobs.
+  std::map<std::int64_t, std::string> stuck_ ABSL_GUARDED_BY(stuck_mutex_);
+  bool disk_full_told_ ABSL_GUARDED_BY(stuck_mutex_) = false;  // by the log, and not yet that there is room
 };
 
 }  // namespace affskel::server

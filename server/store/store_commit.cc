@@ -126,10 +126,8 @@ void Store::commit_all(std::span<Change* const> together) {
   const auto committed = std::chrono::steady_clock::now();
   for (Change* change : together) {
     const Changes& made = change->changes;
-    if ((made.grown && !made.partly) || made.eased) {
-      reserve_.allow_retry();
-      forget_stuck(made.jobs);
-    }
+    if ((made.grown && !made.partly) || made.eased) reserve_.allow_retry();
+    note_stuck(made);
     try {
       change->changes.counts.push_back([waited = begun - change->asked, worked = committed - begun](
                                            Metrics& metrics) { metrics.transaction(waited, worked); });

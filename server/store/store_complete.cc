@@ -167,6 +167,8 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
   return write([&](Tx& tx) {
     const TaskRow task = held_task(tx, header.token());
     if (task.state == "done") return reply(false);
+    tx.changes.jobs.insert(task.job_id);
+    tx.changes.results.emplace(task.id, task.job_id);
     tx.require_room();
     if (parts && task.on_request && task.kind == v1::TASK_KIND_PREPARE) {
       restore_prepared(tx, task, header, *parts);

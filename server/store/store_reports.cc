@@ -113,8 +113,18 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
   }
 }
 
-/// A report that the full disk cannot take.  Its worker will try again and keeps its leases meanwhile, those whose reports
-/// wait behind this one, too, unless the rest is not wanted any more.
+/// A lease that can make no progress at the moment.  Its worker tries several times a second, and every commit takes a
+/// little of what is left of the disk.
+void keep_waiting(Tx& tx, const TaskRow& task) {
+  const std::int64_t patience = patience_ms(tx, task);
+  tx.db.run(
+      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?3)"
+      " WHERE id = ?4 AND (deadline_ms < ?1 + ?2 / 2 OR stalled_ms < ?1 + ?3 / 2)",
+      tx.lease_ms, tx.options.lease_ms, patience, task.id);
+}
+
+/// A report that the full disk cannot take.  Its worker will try again and keeps its leases meanwhile, those whose
+/// reports wait behind this one, too, unless the rest is not wanted any more.
 std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job) {
   if (task.state == "leased" && (!job.active() || job.cancel_requested)) {
     release_task(tx, task);
@@ -123,11 +133,9 @@ std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job
     return std::make_exception_ptr(
         StoreError(StoreError::Code::kFenced, "the job was cancelled while the disk was full"));
   }
-  // It tries several times a second, and every commit takes a little of what is left.
-  tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?2)"
-      " WHERE worker = ?3 AND state = 'leased' AND deadline_ms < ?1 + ?2 / 2",
-      tx.lease_ms, tx.options.lease_ms, task.worker);
+  tx.changes.refused = true;
+  for (const TaskRow& held : leased_tasks(tx.db))
+    if (held.worker == task.worker) keep_waiting(tx, held);
   return std::make_exception_ptr(full_disk(tx.db));
 }
 
@@ -166,6 +174,7 @@ Store::Reported Store::report(const v1::ReportErosionHeader& header, const Recor
     const TaskRow task = of_erosion(held_task(tx, header.token()));
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
+    tx.changes.results.emplace(task.id, job.id);
     if (!tx.room) {
       refusal = refuse_for_now(tx, task, job);
       return reply(false);
@@ -209,6 +218,7 @@ v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, 
     const TaskRow task = of_kind(v1::TASK_KIND_REFINE, held_task(tx, header.token()));
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
+    tx.changes.results.emplace(task.id, job.id);
     require_round(header, task);
     // A report that is repeated after its block was finished may find the next round begun.
     if (task.state == "done") return reply(false);
@@ -256,6 +266,7 @@ bool Store::report_part(const std::string& token, const RecordBatch& records) {
     const TaskRow task = of_erosion(held_task(tx, token));
     const JobRow job = get_job(tx.db, task.job_id);
     tx.changes.jobs.insert(job.id);
+    tx.changes.results.emplace(task.id, job.id);
     if (!tx.room) {
       refusal = refuse_for_now(tx, task, job);
       return false;

@@ -8,6 +8,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "base/logfmt.h"
 #include "base/mutex.h"
 #include "store/job_life.h"
@@ -42,6 +45,7 @@ SqliteError full_disk(const Database& db) {
 }
 
 void Tx::require_room() {
+  changes.refused = !room;
   if (!room) throw full_disk(db);
   changes.grown = true;
 }
@@ -133,24 +137,27 @@ void Store::live_on_reserve() {
 /// that follows one of the jobs that the change was about learns why it gets no further.
 void Store::make_room(const Changes& undone) {
   const std::int64_t now = clock_.lease_ms();
-  if (!disk_full_told_.exchange(true)) spdlog::error(base::logfmt("disk_full", {{"file", file_}}));
-  if (undone.grown) {
-    const base::MutexLock lock(stuck_mutex_);
-    stuck_.insert(undone.jobs.begin(), undone.jobs.end());
-  }
+  bool first = false;
   {
     const base::MutexLock lock(mutex_);
-    if (disk_full_.exchange(true)) return;
-    full_disk_ms_ = now;
-    live_on_reserve();
-    room_wanted_ = reserve_.wanted();
-    try {
-      db_.unclaim_pages();
-    } catch (const SqliteError&) {
-      // The next commit tries it again.
+    first = !disk_full_.exchange(true);
+    if (first) {
+      full_disk_ms_ = now;
+      live_on_reserve();
+      room_wanted_ = reserve_.wanted();
+      try {
+        db_.unclaim_pages();
+      } catch (const SqliteError&) {
+        // The next commit tries it again.
+      }
     }
   }
-  if (listener_ != nullptr) {
+  if (undone.grown || undone.refused) {
+    const base::MutexLock lock(stuck_mutex_);
+    stuck_.insert(undone.results.begin(), undone.results.end());
+  }
+  tell_full();
+  if (first && listener_ != nullptr) {
     Changes stuck;
     stuck.jobs = undone.jobs;
     listener_->on_change(stuck);
@@ -160,44 +167,58 @@ void Store::make_room(const Changes& undone) {
 std::uint64_t Store::room_wanted(const std::string& job_id) {
   if (disk_full_) return room_wanted_;
   const base::MutexLock lock(stuck_mutex_);
-  return stuck_.contains(job_id) ? room_wanted_.load() : 0;
+  const bool stuck =
+      std::any_of(stuck_.begin(), stuck_.end(), [&](const auto& task) { return task.second == job_id; });
+  return stuck ? room_wanted_.load() : 0;
 }
 
-/// What was refused of them is written, or not wanted any more.
-void Store::forget_stuck(const std::set<std::string>& jobs) {
+/// Of a committed change: what the full disk refused, or what was refused before and is written, or not wanted any more.
+void Store::note_stuck(const Changes& made) {
   const base::MutexLock lock(stuck_mutex_);
-  for (const std::string& job : jobs) stuck_.erase(job);
+  if (made.refused) stuck_.insert(made.results.begin(), made.results.end());
+  if (made.grown && !made.partly) {
+    for (const auto& [task, job] : made.results) stuck_.erase(task);
+  }
+  if (made.eased) std::erase_if(stuck_, [&](const auto& task) { return made.jobs.contains(task.second); });
 }
 
-/// Those that have come to an end, or that nobody works on who would try again.
+/// Those on which nobody works who would try again, or that nobody wants: only what is asked for of a job that has come
+/// to an end.
 void Store::forget_ended_stuck() {
-  std::set<std::string> stuck;
+  std::map<std::int64_t, std::string> ended;
   {
     const base::MutexLock lock(stuck_mutex_);
-    stuck = stuck_;
+    ended = stuck_;
   }
-  if (stuck.empty()) return;
+  if (ended.empty()) return;
   read([&](Database& db) {
-    return std::erase_if(stuck, [&](const std::string& job) {
+    return std::erase_if(ended, [&](const auto& task) {
       return db
           .integer(
-              "SELECT 1 FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE j.id = ? AND t.state = 'leased'"
-              " AND j.state IN ('queued', 'running') LIMIT 1",
-              job)
+              "SELECT 1 FROM tasks t JOIN jobs j ON j.id = t.job_id WHERE t.id = ? AND t.state = 'leased'"
+              " AND (t.on_request = 1 OR j.state IN ('queued', 'running'))",
+              task.first)
           .has_value();
     });
   });
-  forget_stuck(stuck);
+  const base::MutexLock lock(stuck_mutex_);
+  for (const auto& [task, job] : ended) stuck_.erase(task);
+}
+
+void Store::tell_full() {
+  const base::MutexLock lock(stuck_mutex_);
+  if (!std::exchange(disk_full_told_, true)) spdlog::error(base::logfmt("disk_full", {{"file", file_}}));
 }
 
 /// Not whenever the reserve is whole again: what needs more than that is then tried once more, and mostly in vain.
 void Store::tell_room() {
-  if (!disk_full_told_ || disk_full_) return;
-  forget_ended_stuck();
   {
     const base::MutexLock lock(stuck_mutex_);
-    if (!stuck_.empty()) return;
+    if (!disk_full_told_ || disk_full_) return;
   }
+  forget_ended_stuck();
+  const base::MutexLock lock(stuck_mutex_);
+  if (!disk_full_told_ || disk_full_ || !stuck_.empty()) return;
   disk_full_told_ = false;
   spdlog::info(base::logfmt("disk_has_room", {{"file", file_}}));
 }

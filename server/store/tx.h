@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -45,10 +46,13 @@ struct Changes {
   bool dropped = false;          ///< something is left for Store::tidy
   bool grown = false;            ///< more than bookkeeping was written
   bool partly = false;           ///< of that, a part of what has to be written whole
+  bool refused = false;          ///< more than bookkeeping was to be written, and the disk is full
   bool eased = false;            ///< a job that was short of room no longer needs it
   std::vector<std::string> log;  ///< entries: base::logfmt
   /// What the metrics are told.
   std::vector<std::function<void(Metrics&)>> counts;
+  /// Tasks whose workers brought what is more than bookkeeping, and their jobs.
+  std::map<std::int64_t, std::string> results;
 };
 
 /// Hears of committed changes.  Called without the store's lock, on the thread that changed something;

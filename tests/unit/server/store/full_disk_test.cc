@@ -24,6 +24,26 @@ namespace {
 
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
+/// What the program logs, for as long as it lives.
+class Log {
+ public:
+  Log() {
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
+  }
+  ~Log() { spdlog::set_default_logger(before_); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  bool tells(const std::string& event) const {
+    return text_.str().find("event=" + event) != std::string::npos;
+  }
+
+ private:
+  const std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+  std::ostringstream text_;
+};
+
 /// A store on a disk of its own.
 class FullDiskTest : public StoreTest {
  protected:
@@ -199,7 +219,8 @@ TEST_F(FullDiskTest, AWorkerThatTriesAgainKeepsItsLease) {
   const std::uint64_t at = report_until_full(block, block.positions(0).begin());
   disk_.leave(kMiB);  // others take what the log has given back
   for (const std::int64_t end = clock_.lease_ms() + 2 * options_.stall_ms; clock_.lease_ms() < end;) {
-    clock_.advance(options_.lease_ms * 3 / 4);
+    clock_.advance(options_.lease_ms / 4);
+    for (const v1::Lease& held : {block, next}) EXPECT_NO_THROW(store_->renew(held.token()));
     EXPECT_THROW(report(block, at, at + 1), SqliteError);
     ASSERT_EQ(store_->expire_leases(), 0);
   }
@@ -257,13 +278,7 @@ TEST_F(FullDiskTest, AJobTooLargeForTheDiskHoldsOthersUpOnlyUntilItIsCancelledOr
 
 // The reserve comes back whenever it may, and goes again with the next report: that is no room.
 TEST_F(FullDiskTest, RoomIsToldOnceWhatWasRefusedIsWritten) {
-  std::ostringstream log;
-  const auto usual = spdlog::default_logger();
-  spdlog::set_default_logger(
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
-  const auto told = [&log](const std::string& event) {
-    return log.str().find("event=" + event) != std::string::npos;
-  };
+  const Log log;
   const v1::Job large = submit();
   prepare(500000, 16);
   const v1::Lease block = lease();
@@ -291,14 +306,65 @@ TEST_F(FullDiskTest, RoomIsToldOnceWhatWasRefusedIsWritten) {
   }
   const v1::Job small = submit("OFF 2");
   EXPECT_EQ(store_->room_wanted(small.id()), 0U);
-  EXPECT_TRUE(told("disk_full"));
-  EXPECT_FALSE(told("disk_has_room"));
+  EXPECT_TRUE(log.tells("disk_full"));
+  EXPECT_FALSE(log.tells("disk_has_room"));
   disk_.leave(100 * kMiB);
   EXPECT_NO_THROW(report(block, 0, 1));
   tidy_up();
   EXPECT_EQ(store_->room_wanted(large.id()), 0U);
-  EXPECT_TRUE(told("disk_has_room"));
-  spdlog::set_default_logger(usual);
+  EXPECT_TRUE(log.tells("disk_has_room"));
+}
+
+// A large report of one block is refused while small ones of another are taken: the job is not through.
+TEST_F(FullDiskTest, WhatIsWrittenOfAnotherBlockIsNotWhatWasRefused) {
+  const Log log;
+  const v1::Job job = submit();
+  prepare(500000, 32);
+  const v1::Lease block = lease(), next = lease();
+  disk_.leave(5 * kMiB);
+  EXPECT_THROW(report(block, 0, 1), SqliteError);
+  for (int kept = 0; kept < 20; ++kept) {
+    clock_.advance(options_.lease_ms * 3 / 4);
+    store_->renew(block.token());
+    store_->renew(next.token());
+  }
+  tidy_up();
+  ASSERT_FALSE(store_->disk_full());
+  EXPECT_NO_THROW(report(next, {next.positions(0)}, {}));
+  tidy_up();
+  EXPECT_GT(store_->room_wanted(job.id()), options_.reserve_bytes);
+  EXPECT_FALSE(log.tells("disk_has_room"));
+  disk_.leave(100 * kMiB);
+  EXPECT_NO_THROW(report(block, 0, 1));
+  tidy_up();
+  EXPECT_TRUE(log.tells("disk_has_room"));
+}
+
+// The job is done; what was asked for of it is as good as any other result.
+TEST_F(FullDiskTest, RoomIsNotToldWhileAResultOnRequestIsRefused) {
+  const Log log;
+  const std::string job = complete_job(10, 20).id();
+  store_->open_artifact(skeleton_request(job, 3));
+  const v1::Lease task = lease();
+  const std::string large(20 * kMiB, 's');
+  const v1::CompleteTaskHeader header = derive_header(task.token(), large, 3);
+  for (const std::uint64_t left : {5 * kMiB, options_.reserve_bytes / 2}) {
+    disk_.leave(left);
+    EXPECT_THROW(store_->complete(header, large), SqliteError);
+    EXPECT_TRUE(log.tells("disk_full"));
+    disk_.leave(5 * kMiB);
+    for (int kept = 0; kept < 20; ++kept) {
+      clock_.advance(options_.lease_ms * 3 / 4);
+      store_->renew(task.token());
+    }
+    tidy_up();
+    ASSERT_FALSE(store_->disk_full()) << left;
+    EXPECT_FALSE(log.tells("disk_has_room")) << left;
+  }
+  disk_.leave(100 * kMiB);
+  EXPECT_NO_THROW(store_->complete(header, large));
+  tidy_up();
+  EXPECT_TRUE(log.tells("disk_has_room"));
 }
 
 // Everything is small here, so the log's own place is what the commits must get along with.
@@ -395,11 +461,17 @@ TEST_F(FullDiskTest, StartsWhereNothingIsFreeButTheReserve) {
   const v1::Job job = submit();
   store_.reset();
   disk_.leave(0);
+  const Log log;
   open();
   EXPECT_TRUE(store_->disk_full());
+  EXPECT_TRUE(log.tells("disk_full"));
   EXPECT_EQ(bytes_of("reserve"), 0U);
   EXPECT_EQ(store_->cancel(job.id()).state(), v1::JOB_STATE_CANCELLED);
   EXPECT_EQ(store_->remove(job.id()), job.id());
+  EXPECT_FALSE(log.tells("disk_has_room"));
+  disk_.leave(100 * kMiB);
+  tidy_up();
+  EXPECT_TRUE(log.tells("disk_has_room"));
 }
 
 }  // namespace
