@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "base/end_limit.h"
 #include "base/logfmt.h"
@@ -120,7 +121,9 @@ void give_memory_back() {
 
 void require_protected(const ServerOptions& options) {
   if (options.metrics) require_local_metrics(*options.metrics, options.insecure);
-  const bool may_have_token = std::filesystem::exists(database_file(options.data_dir));
+  // What cannot be looked at is told when it is opened.
+  std::error_code hidden;
+  const bool may_have_token = std::filesystem::exists(database_file(options.data_dir), hidden) || hidden;
   require_protection(options.listen, {!options.tls.certificate.empty(), may_have_token, options.insecure});
 }
 

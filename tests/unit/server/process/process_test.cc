@@ -164,6 +164,16 @@ TEST(RunTest, ARefusedStartMakesNothing) {
   EXPECT_FALSE(std::filesystem::exists(options.data_dir));
 }
 
+// As a directory that one may not enter.
+TEST(RunTest, ADataDirectoryThatCannotBeLookedAtIsNamed) {
+  const TemporaryDirectory directory;
+  Options options;
+  options.data_dir = (directory.path() / "loop").string();
+  std::filesystem::create_symlink("loop", options.data_dir);
+  options.insecure = true;
+  EXPECT_EXIT(std::_Exit(run(options)), testing::ExitedWithCode(2), "data directory .*loop");
+}
+
 TEST(DataDirTest, IsHeldByOneServer) {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "new" / "data").string();
