@@ -14,8 +14,11 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
+#include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "base/end_limit.h"
 #include "base/exit_code.h"
@@ -85,10 +88,28 @@ const wire::Address& nearest(const Server& server) {
   return best != addresses.end() ? *best : addresses.front();
 }
 
-SupervisorOptions supervisor_options(const Options& options, const Server& server) {
+/// Whether an administrator keeps a worker that this server has started from work: by itself, or with this host.
+bool is_distrusted(Server& server, pid_t pid) {
+  try {
+    const std::set<std::string> distrusted = server.store().distrusted();
+    if (distrusted.contains(wire::host_name())) return true;
+    const std::vector<v1::WorkerInfo> workers = server.registry().list();
+    return std::any_of(workers.begin(), workers.end(), [&](const v1::WorkerInfo& worker) {
+      return worker.supervised() && worker.pid() == static_cast<std::uint32_t>(pid) &&
+             distrusted.contains(worker.id());
+    });
+  } catch (const std::exception& error) {
+    // It is started again after a pause, and told once more.
+    spdlog::error(base::logfmt("distrust_unknown", {{"pid", pid}, {"message", error.what()}}));
+    return false;
+  }
+}
+
+SupervisorOptions supervisor_options(const Options& options, Server& server) {
   SupervisorOptions result;
   result.workers = options.workers;
   if (options.workers == 0) return result;
+  result.is_distrusted = [&server](pid_t pid) { return is_distrusted(server, pid); };
   unsigned threads = options.worker_threads;
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency() / options.workers);
   result.command = {find_worker_binary(options.worker_binary),

@@ -124,15 +124,16 @@ void Supervisor::ended(Slot& slot) {
     slot.delay = std::clamp(slot.delay * 2, options_.first_delay, options_.last_delay);
   }
   slot.due = now + slot.delay;
-  slot.barred = WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(base::ExitCode::kNotAllowed);
+  slot.barred = WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(base::ExitCode::kNotAllowed) &&
+                options_.is_distrusted(pid);
   if (terminating_) {
     spdlog::info(base::logfmt("worker_ended", {{"pid", pid}, describe(status)}));
   } else if (slot.barred) {
     spdlog::error(base::logfmt("worker_ended", {{"pid", pid},
                                                 describe(status),
                                                 {"message",
-                                                 "may not work; none is started in its place until the"
-                                                 " server is started anew"}}));
+                                                 "an administrator distrusts it; none is started in its"
+                                                 " place until the server is started anew"}}));
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     spdlog::error(base::logfmt("worker_ended", {{"pid", pid},
                                                 {"restart_ms", slot.delay.count()},

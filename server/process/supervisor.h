@@ -16,11 +16,13 @@ struct SupervisorOptions {
   std::chrono::milliseconds first_delay{100};   ///< before the restart of a worker that died young ...
   std::chrono::milliseconds last_delay{30000};  ///< ... doubled each time up to this
   std::chrono::milliseconds healthy{30000};     ///< a worker that lived this long starts again without delay
+  /// Asked of one that ended with base::ExitCode::kNotAllowed, for which there are other reasons, too.
+  std::function<bool(pid_t)> is_distrusted = [](pid_t) { return false; };
 };
 
-/// Keeps a number of child processes running, but for those that end with base::ExitCode::kNotAllowed: an administrator
-/// distrusts them, and another on the same machine would be no better.  For one thread only, which must live as long as the
-/// children shall: they get SIGTERM when the thread that started them ends, however it ends.
+/// Keeps a number of child processes running, but for those that an administrator distrusts: another on the same
+/// machine would be no better.  For one thread only, which must live as long as the children shall: they get SIGTERM
+/// when the thread that started them ends, however it ends.
 class Supervisor {
  public:
   using Callback = std::function<void(pid_t)>;
@@ -54,7 +56,7 @@ class Supervisor {
     Time started;
     Time due;  // when to start next
     std::chrono::milliseconds delay{0};
-    bool barred = false;  // its worker may not work, nor may another
+    bool barred = false;  // its worker is distrusted, and another would be no better
   };
 
   void reap();

@@ -58,15 +58,30 @@ TEST(SupervisorTest, KeepsWorkersRunning) {
 }
 
 // An administrator distrusts it: another one on the same machine would compute as wrongly.
-TEST(SupervisorTest, AWorkerThatMayNotWorkIsNotStartedAgain) {
+TEST(SupervisorTest, ADistrustedWorkerIsNotStartedAgain) {
   int started = 0, ended = 0;
   SupervisorOptions options = shell("exit 7", 1);
+  options.is_distrusted = [](pid_t) { return true; };
   options.first_delay = options.last_delay = milliseconds(0);
   Supervisor supervisor(
       options, [&](pid_t) { ++started; }, [&](pid_t) { ++ended; });
   tick_until(supervisor, [&] { return ended == 1; });
   supervisor.tick();
   EXPECT_EQ(started, 1);
+}
+
+// Its token has expired, say, and its file gets another.
+TEST(SupervisorTest, AWorkerThatMayNotWorkForAnotherReasonIsTriedAgain) {
+  std::vector<pid_t> ended, asked;
+  SupervisorOptions options = shell("exit 7", 1);
+  options.is_distrusted = [&](pid_t pid) {
+    asked.push_back(pid);
+    return false;
+  };
+  Supervisor supervisor(
+      options, [](pid_t) {}, [&](pid_t pid) { ended.push_back(pid); });
+  tick_until(supervisor, [&] { return ended.size() == 3; });
+  EXPECT_EQ(asked, ended);
 }
 
 TEST(SupervisorTest, ProgramThatCannotRunIsTriedAgain) {
