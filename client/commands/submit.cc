@@ -275,7 +275,8 @@ void add_submit(CommandLine& line) {
       ->add_option(
           "FILE", o.file,
           "Closed triangle mesh: " + mesh_kinds() +
-              ";\nwith --repair wrap points, too (.xyz, .csv, .ply). Submitted as OFF text. - reads it from\nstdin")
+              ";\nwith --repair wrap points, too (.xyz, .csv, .ply). Submitted as OFF text. - reads it from\n"
+              "stdin")
       ->required()
       ->check(mesh_file())
       ->type_name("");

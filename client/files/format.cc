@@ -67,7 +67,10 @@ FileFormat choose_format(const Destination& destination, std::span<const FileFor
   }
   std::string refused = "cannot write the " + what + " as '" + extension + "'";
   if (extension.empty()) refused = "has no extension to tell how to write the " + what;
-  if (destination.format.empty() && !destination.file.has_filename())
+  std::error_code unknown;
+  const bool folder =
+      !destination.file.has_filename() || std::filesystem::is_directory(destination.file, unknown);
+  if (destination.format.empty() && !destination.is_stdout() && folder)
     refused = "is a folder; name a file in it for the " + what;
   if (extension.empty() && destination.is_stdout()) refused = "a format is needed for the " + what;
   throw ClientError(ExitCode::kUsage, refused + "; possible are " + names, destination.name());

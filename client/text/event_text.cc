@@ -37,10 +37,13 @@ std::string event_lines(const v1::ListJobEventsResponse& response) {
     next = event.number() + 1;
   }
   for (const v1::Giver& giver : response.givers()) {
+    std::string what;
+    if (giver.directions() > 0) what = base::counted(giver.directions(), "direction");
+    if (giver.points() > 0)
+      what += (what.empty() ? "" : ", ") + base::counted(giver.points(), "refined value");
     text += "given by " + one_line(giver.worker()) +
             (giver.host().empty() ? "" : " on " + one_line(giver.host())) + ": " +
-            base::counted(giver.directions(), "direction") +
-            (giver.points() > 0 ? ", " + base::counted(giver.points(), "refined value") : "") + "\n";
+            (what.empty() ? "of directions that others told of, too" : what) + "\n";
   }
   return text;
 }

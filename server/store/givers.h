@@ -37,8 +37,8 @@ class DirectionPositions {
 void note_given(Database& db, const JobRow& job, const Giver& giver, const std::vector<Range>& ranges,
                 const std::vector<wire::PointRecord>& records);
 
-/// The workers that told about a job's field, and about how many directions each.  What several told of counts for the
-/// first of them, so that together they are no more than the job has.
+/// The workers that told about a job's field, and about how many directions each.  What several told of counts for
+/// that whose id comes first in the alphabet, so that together they are no more than the job has.
 std::vector<v1::Giver> givers_of(Database& db, const JobRow& job);
 
 /// Positions about which the same workers told.

@@ -67,13 +67,13 @@ class Mending {
   /// may be no more.
   bool holds_nothing() const { return holds_nothing_ > 0; }
 
-  /// @throws CoreError kBadInput for an open flat sheet, but with an alpha of one's own: filled to any length, it would
-  ///   bound nothing.  A wrap, whose offset is taken back, is a crumpled film about it, of any alpha.
+  /// @throws CoreError kBadInput for an open flat sheet, unless an alpha was asked for: filled to any length, it would
+  ///   bound nothing, and a wrap, whose offset is taken back, is a crumpled film about it.
   RepairedMesh result(const RepairOptions& asked) {
     if (holds_nothing() && is_flat_sheet(result_.mesh) && asked.alpha == 0)
       refuse(
-          "the mesh is an open sheet and flat, so that it bounds no volume, nor does what fills or wraps it; give it a "
-          "thickness, by Blender's Solidify, say");
+          "the mesh is an open sheet and flat, so that it bounds no volume, nor does what fills or wraps it; "
+          "give it a thickness, by Blender's Solidify, say");
     return std::move(result_);
   }
 

@@ -55,10 +55,9 @@ struct RepairedMesh {
 };
 
 /// Makes a mesh bound a solid, in steps that are told.
-/// @throws CoreError kBadInput without points, or with all of them at one place; for an open flat sheet without an alpha
-///   of one's own, for a wrap that is a film about open sheets without an alpha of one's own; for a box of 1e60 or more, of
-///   1e-60 or less; for an alpha below a 2000th of its diagonal, or above all of it; as cloud_surface and alpha_wrap.
-///   kCancelled.
+/// @throws CoreError kBadInput without points, or with all of them at one place; for an open flat sheet, or a wrap
+///   that is a film about open sheets, unless an alpha was asked for; for a box of 1e60 or more, of 1e-60 or less;
+///   for an alpha below a 2000th of its diagonal, or above all of it; as cloud_surface and alpha_wrap. kCancelled.
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options = {});
 
 }  // namespace affskel::core

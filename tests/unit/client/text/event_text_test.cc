@@ -38,6 +38,23 @@ TEST(EventTextTest, SaysWhereEventsWereLeftOut) {
   EXPECT_EQ(event_lines({}), "");
 }
 
+// Directions count for one of those that told of them; the others' values are in the field all the same.
+TEST(EventTextTest, AGiverOfNothingButWhatOthersGaveIsNamed) {
+  v1::ListJobEventsResponse response;
+  const auto add = [&response](const std::string& worker, std::uint64_t directions, std::uint64_t points) {
+    v1::Giver& giver = *response.add_givers();
+    giver.set_worker(worker);
+    giver.set_directions(directions);
+    giver.set_points(points);
+  };
+  add("a", 1, 2);
+  add("b", 0, 0);
+  add("c", 0, 3);
+  EXPECT_EQ(event_lines(response),
+            "given by a: 1 direction, 2 refined values\ngiven by b: of directions that others told of, too\n"
+            "given by c: 3 refined values\n");
+}
+
 TEST(EventTextTest, AMessageIsOneLineAndDrivesNoTerminal) {
   v1::ListJobEventsResponse response;
   add(response, 1, "failed").set_message("BAD_INPUT: line 3\n\x1b[31mred");

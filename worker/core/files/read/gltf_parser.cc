@@ -80,9 +80,9 @@ class Gltf {
     drawn_.assign(list(text_, "nodes").size(), false);
     const std::vector<std::size_t> shown = roots();
     if (shown.empty() && !list(text_, "meshes").empty())
-      fail_at(
-          0,
-          "has meshes, and none of them is shown: its scene is empty; put them into it, and export it again");
+      fail_at(0, std::string("has meshes, and none of them is shown: ") +
+                     (list(text_, "scenes").empty() ? "no node has one" : "its scene is empty") +
+                     "; put them into a scene, and export it again");
     for (const std::size_t root : shown) draw(root, AffineMap());
     ShapeFile file = surface_.take();
     if (others_ > 0) file.off.passed_over.push_back({"points and lines", others_, 0});

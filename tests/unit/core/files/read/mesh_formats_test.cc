@@ -91,6 +91,9 @@ TEST(MeshFormats, GltfPlacesMeshesByItsNodes) {
   expect_box(parse_mesh_file("", glb(parts)), "glb");
   parts.text["scenes"] = {{{"nodes", nlohmann::json::array()}}};
   EXPECT_NE(refusal(glb(parts)).find("its scene is empty"), std::string::npos) << refusal(glb(parts));
+  parts.text.erase("scenes");
+  parts.text["nodes"] = nlohmann::json::array();
+  EXPECT_NE(refusal(glb(parts)).find("no node has one"), std::string::npos) << refusal(glb(parts));
 }
 
 TEST(MeshFormats, GltfHasStripsFansAndPlainCorners) {
