@@ -17,8 +17,9 @@ void run_resume(Context& context, const ResumeOptions& options) {
   const v1::Job job = context.session().resume(options.job, options.distrust);
   if (!options.distrust.empty()) {
     context.console().note(
-        "no more work goes there: to a worker under its id, to a host's until the server is started anew, and workers of the"
-        " server's own stay away until then; look after the machine before");
+        "no more work goes there: not to a worker under its id, nor to any of a host until"
+        " affskel-server trust names it; workers of the server's own then come back when it is started anew."
+        " Look after the machine before");
   }
   show_state(context.console(), job);
 }
@@ -36,8 +37,8 @@ void add_resume(CommandLine& line) {
       ->add_option(
           "--distrust", options->distrust,
           "Have what this worker (or all workers of this host) gave computed again by others, in whatever"
-          " state the job is, and give it no more work (a host's workers: until the server is started anew); for"
-          " administrators, see verify")
+          " state the job is, and give it no more work (a host's workers: until affskel-server trust names"
+          " it); for administrators, see verify")
       ->check(non_empty())
       ->check(utf8_text())
       ->type_name("WORKER");

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/exit_code.h"
+#include "base/quoted.h"
 #include "base/standard_streams.h"
 #include "check/backup.h"
 #include "check/check_database.h"
@@ -22,6 +23,7 @@
 #include "process/console.h"
 #include "process/data_dir.h"
 #include "process/token_command.h"
+#include "store/distrust.h"
 
 namespace affskel::server {
 namespace {
@@ -141,6 +143,18 @@ base::ExitCode migrate_command(const Options& options, const Console& console) {
   return base::ExitCode::kDone;
 }
 
+base::ExitCode trust_command(const Options& options, const Console& console) {
+  Database db(existing_database_file(options.data_dir), Database::Mode::kReadWrite);
+  if (checked_schema(db) != newest_schema()) {
+    throw StoreError(
+        StoreError::Code::kUnusable,
+        db.file() + ": its schema is older than this program's; run affskel-server migrate first");
+  }
+  trust(db, options.trusted);
+  console.note(base::quoted(options.trusted) + " gets work again");
+  return base::ExitCode::kDone;
+}
+
 base::ExitCode run_command(const Options& options, const Console& console) {
   switch (options.command) {
     case Command::kCheck:
@@ -155,6 +169,8 @@ base::ExitCode run_command(const Options& options, const Console& console) {
       return list_tokens_command(options, console);
     case Command::kTokenRevoke:
       return revoke_token_command(options, console);
+    case Command::kTrust:
+      return trust_command(options, console);
     case Command::kServe:
       break;
   }
@@ -211,7 +227,7 @@ int run_maintenance(const Options& options) {
   };
   try {
     // Known now, not when all is done.
-    const bool tells = options.command != Command::kTokenRevoke;
+    const bool tells = options.command != Command::kTokenRevoke && options.command != Command::kTrust;
     if (tells && base::standard_output_is_closed()) throw base::OutputError(EBADF);
     return static_cast<int>(run_command(options, console));
   } catch (const StoreError& error) {

@@ -4,7 +4,7 @@
 
 namespace affskel::server {
 
-/// Runs check, backup, migrate or a command on tokens, as options.command says.  What came of it goes to
+/// Runs check, backup, migrate, trust or a command on tokens, as options.command says.  What came of it goes to
 /// stdout as "key: value" lines or as one JSON document, faults and errors to stderr.  Returns the exit code.
 int run_maintenance(const Options& options);
 

@@ -107,6 +107,17 @@ Examples:
 Exit codes: 0 done; 2 usage; 3 no database of affskel-server, or of a newer one; 4 no such token; 8 disk full; 70
 internal error.)";
 
+constexpr const char* kTrustFooter = R"(
+`affskel-client resume JOB --distrust HOST` keeps all workers of a host from work, over restarts of the server, too.
+When its machine has been looked after, this gives them work again. It works beside a running server and without one;
+workers of the server's own that were sent away are started with its next start. What they gave stays taken out.
+
+Examples:
+  affskel-server trust node7 --data-dir /var/lib/affskel
+
+Exit codes: 0 done; 2 usage; 3 no database of affskel-server, or one of another version; 4 nobody distrusts it; 8 disk
+full; 70 internal error.)";
+
 unsigned worker_count(const std::string& text) {
   if (text == "auto") return std::max(1U, std::thread::hardware_concurrency());
   unsigned count = 0;
@@ -332,6 +343,10 @@ void add_commands(CLI::App& app, Options& options) {
               Command::kMigrate)
       ->footer(kMigrateFooter);
   add_token_commands(app, options);
+  CLI::App* trust = add_command(app, app, options, "trust",
+                                "Give the workers of a distrusted host work again", Command::kTrust);
+  trust->footer(kTrustFooter);
+  trust->add_option("HOST", options.trusted, "As --distrust named it; or a worker's id")->required();
 }
 
 /// Refuses options that would be ignored.

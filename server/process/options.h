@@ -12,7 +12,7 @@
 namespace affskel::server {
 
 /// What affskel-server is asked for.
-enum class Command { kServe, kCheck, kBackup, kMigrate, kTokenAdd, kTokenList, kTokenRevoke };
+enum class Command { kServe, kCheck, kBackup, kMigrate, kTokenAdd, kTokenList, kTokenRevoke, kTrust };
 
 /// The command line of affskel-server, checked for form.
 struct Options {
@@ -43,6 +43,7 @@ struct Options {
   v1::Role role = v1::ROLE_USER;                ///< of token add
   std::optional<std::chrono::seconds> expires;  ///< of token add: from now on; absent = never
   std::int64_t token = 0;                       ///< of token revoke: its id
+  std::string trusted;                          ///< of trust: a host or a worker
 };
 
 /// Parses the command line.  Prints help, version or what is wrong; then `exit_code` is set: 0 or 2.

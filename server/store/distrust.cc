@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "base/logfmt.h"
 #include "base/number_text.h"
 #include "base/quoted.h"
 #include "database/errors.h"
@@ -78,7 +77,8 @@ void bar(Tx& tx, const Giver& giver) {
   }
   // Nor does it come back to a lease that is late, or repeat the report of a block that it has finished.
   tx.db.run(
-      "UPDATE tasks SET token = NULL, late_token = NULL WHERE ? IN (worker, host) AND state IN ('pending', 'done')",
+      "UPDATE tasks SET token = NULL, late_token = NULL WHERE ? IN (worker, host)"
+      " AND state IN ('pending', 'done')",
       giver.worker);
 }
 
@@ -110,10 +110,10 @@ void distrust(Tx& tx, const JobRow& job, const std::string& who) {
   }
   if (is_host) {
     givers.push_back({who, who});
-    add_event(tx, job.id,
-              {.event = "distrusted",
-               .message =
-                   "no worker of host " + base::quoted(who) + " gets work until the server is started anew"});
+    add_event(
+        tx, job.id,
+        {.event = "distrusted",
+         .message = "no worker of host " + base::quoted(who) + " gets work until affskel-server trust"});
   }
   tx.db.run("DELETE FROM verifications WHERE job_id = ?", job.id);
   restart_erosion(tx, job.erosion_id, job.directions);
@@ -135,12 +135,17 @@ void require_trusted(Database& db, const v1::WorkerIdentity& worker) {
   };
   refuse_if(worker.id(), "this worker; look after its machine before it is started anew");
   refuse_if(worker.host(),
-            "all workers of this host until the server is started anew; look after the machine before");
+            "all workers of this host; look after the machine, and run affskel-server trust on the server's");
 }
 
-void trust_hosts_again(Tx& tx) {
-  Statement row = tx.db.query("DELETE FROM distrusted WHERE worker = host RETURNING host");
-  while (row.step()) tx.changes.log.push_back(base::logfmt("host_trusted_again", {{"host", row.text(0)}}));
+void trust(Database& db, const std::string& who) {
+  if (db.run("DELETE FROM distrusted WHERE ? IN (worker, host)", who) > 0) return;
+  std::string hosts;
+  Statement row = db.query("SELECT host FROM distrusted WHERE worker = host ORDER BY host");
+  while (row.step()) hosts += (hosts.empty() ? "" : ", ") + base::quoted(row.text(0));
+  throw StoreError(StoreError::Code::kNotFound,
+                   "nobody distrusts " + base::quoted(who) +
+                       (hosts.empty() ? "; no host is distrusted" : "; distrusted hosts: " + hosts));
 }
 
 }  // namespace affskel::server

@@ -16,7 +16,7 @@ namespace affskel::server {
 /// to others.  What is left of the field is true, and only makes
 /// the rest faster.
 /// @param who the worker's id, a unique prefix of 6 characters or more, or its host: all its workers that
-///   took part, and no worker there gets a lease until trust_hosts_again().
+///   took part, and no worker there gets a lease until trust() says so, whatever becomes of the server.
 /// @throws StoreError kNotFound when no worker of that name told anything; kPrecondition when the job has no
 ///   field.
 void distrust(Tx& tx, const JobRow& job, const std::string& who);
@@ -26,8 +26,8 @@ std::set<std::string> distrusted(Database& db);
 /// @throws StoreError kForbidden where the worker is to get none.
 void require_trusted(Database& db, const v1::WorkerIdentity& worker);
 
-/// When a server is started: whoever did so has looked after the machines, and a server with workers of its own there
-/// could never use them again.
-void trust_hosts_again(Tx& tx);
+/// A host, with all its workers, or a worker is no longer distrusted.  What it gave to fields stays out of them.
+/// @throws StoreError kNotFound naming the hosts that are distrusted.
+void trust(Database& db, const std::string& who);
 
 }  // namespace affskel::server

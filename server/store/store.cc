@@ -6,7 +6,6 @@
 #include "base/logfmt.h"
 #include "database/errors.h"
 #include "database/migrate.h"
-#include "store/distrust.h"
 #include "store/job_events.h"
 #include "store/job_life.h"
 #include "store/space.h"
@@ -98,7 +97,6 @@ Store::Store(std::string file, StoreOptions options, const Clock& clock, ChangeL
     settle_turns(tx);
     tx.db.run("DELETE FROM tasks WHERE state = 'failed' AND on_request = 1");
     renew_all(tx);
-    trust_hosts_again(tx);
     return true;
   });
   identity_ = OpenFile(file_);

@@ -93,7 +93,7 @@ class Store final : public TokenSource {
   v1::Job resume(const JobRef& job_ref);
   /// The same in any state, without what `worker` gave: see store/distrust.h.
   v1::Job resume_without(const JobRef& job_ref, const std::string& worker);
-  /// Ids of the workers that get no lease any more.
+  /// Ids of workers, and names of hosts, that get no lease any more: see store/distrust.h.
   std::set<std::string> distrusted();
   /// Begins to have a `share` of the directions computed again, unless that is under way, or tells how far
   /// `verification` is: see store/verification.h.

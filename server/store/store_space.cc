@@ -172,7 +172,8 @@ std::uint64_t Store::room_wanted(const std::string& job_id) {
   return stuck ? room_wanted_.load() : 0;
 }
 
-/// Of a committed change: what the full disk refused, or what was refused before and is written, or not wanted any more.
+/// Of a committed change: what the full disk refused, or what was refused before and is now written, or not wanted any
+/// more.
 void Store::note_stuck(const Changes& made) {
   const base::MutexLock lock(stuck_mutex_);
   if (made.refused) stuck_.insert(made.results.begin(), made.results.end());

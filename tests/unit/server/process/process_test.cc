@@ -127,6 +127,10 @@ TEST(OptionsTest, CommandsHaveOptionsOfTheirOwn) {
   EXPECT_TRUE(backup.options.force);
   EXPECT_FALSE(parse({"backup", "--data-dir", "d", "-o", "f"}).options.force);
   EXPECT_EQ(parse({"migrate", "--data-dir", "d"}).options.command, Command::kMigrate);
+  const ParsedOptions trust = parse({"trust", "node7", "--data-dir", "d"});
+  EXPECT_EQ(trust.options.command, Command::kTrust);
+  EXPECT_EQ(trust.options.trusted, "node7");
+  EXPECT_EQ(parse({"trust", "--data-dir", "d"}).exit_code, 2);
 }
 
 TEST(OptionsTest, MisusedCommandsExitWithTwo) {

@@ -1,4 +1,6 @@
 // What becomes of other jobs when an administrator distrusts a worker.
+#include "store/distrust.h"
+
 #include "expect_store_error.h"
 #include "store_fixture.h"
 
@@ -70,7 +72,7 @@ TEST_F(DistrustTest, NoQuotaStandsAgainstIt) {
 }
 
 // By its host: under another id it would come back from the same machine.
-TEST_F(DistrustTest, AHostGetsNoWorkUntilTheServerIsStartedAnew) {
+TEST_F(DistrustTest, AHostGetsNoWorkUntilItIsTrustedAgain) {
   const v1::Job job = job_with_lie();
   v1::WorkerIdentity honest = worker_identity("honest");
   honest.set_host("another-host");
@@ -81,8 +83,14 @@ TEST_F(DistrustTest, AHostGetsNoWorkUntilTheServerIsStartedAnew) {
   EXPECT_TRUE(store_->distrusted().contains("test-host"));
   EXPECT_TRUE(store_->lease(honest, "", false));
   open();
-  EXPECT_NO_THROW(lease("new"));
-  EXPECT_STORE_ERROR(lease("liar"), kForbidden);
+  EXPECT_STORE_ERROR(lease("new"), kForbidden);
+  Database db(database(), Database::Mode::kReadWrite);
+  EXPECT_EQ(error_of([&] { trust(db, "elsewhere"); }),
+            "nobody distrusts 'elsewhere'; distrusted hosts: 'test-host'");
+  trust(db, "test-host");
+  EXPECT_NO_THROW(store_->give_back(lease("new").token()));
+  EXPECT_NO_THROW(lease("liar"));
+  EXPECT_STORE_ERROR(trust(db, "test-host"), kNotFound);
 }
 
 TEST_F(DistrustTest, AWorkerAloneLeavesOthersOfItsHost) {
