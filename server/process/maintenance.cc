@@ -144,14 +144,14 @@ base::ExitCode migrate_command(const Options& options, const Console& console) {
 }
 
 base::ExitCode trust_command(const Options& options, const Console& console) {
-  Database db(existing_database_file(options.data_dir), Database::Mode::kReadWrite);
-  if (checked_schema(db) != newest_schema()) {
-    throw StoreError(
-        StoreError::Code::kUnusable,
-        db.file() + ": its schema is older than this program's; run affskel-server migrate first");
-  }
+  const std::string file = existing_database_file(options.data_dir);
+  std::optional<DataDir> held;  // against a server, or another command, that begins meanwhile
+  if (!data_dir_holder(options.data_dir)) held.emplace(options.data_dir);
+  schema_before(file);
+  Database db(file, Database::Mode::kReadWrite);
   trust(db, options.trusted);
-  console.note(base::quoted(options.trusted) + " gets work again");
+  console.note("workers of " + base::quoted(options.trusted) +
+               " get work again; those that left are to be started anew");
   return base::ExitCode::kDone;
 }
 

@@ -109,8 +109,9 @@ internal error.)";
 
 constexpr const char* kTrustFooter = R"(
 `affskel-client resume JOB --distrust HOST` keeps all workers of a host from work, over restarts of the server, too.
-When its machine has been looked after, this gives them work again. It works beside a running server and without one;
-workers of the server's own that were sent away are started with its next start. What they gave stays taken out.
+When its machine has been looked after, this gives them work again, and those workers there that were distrusted by
+themselves. It works beside a running server and without one. Workers that were sent away are to be started anew
+(systemctl restart affskel-worker@...), those of the server's own with its next start. What they gave stays taken out.
 
 Examples:
   affskel-server trust node7 --data-dir /var/lib/affskel
@@ -346,7 +347,7 @@ void add_commands(CLI::App& app, Options& options) {
   CLI::App* trust = add_command(app, app, options, "trust",
                                 "Give the workers of a distrusted host work again", Command::kTrust);
   trust->footer(kTrustFooter);
-  trust->add_option("HOST", options.trusted, "As --distrust named it; or a worker's id")->required();
+  trust->add_option("HOST", options.trusted, "As --distrust named it, or as `log` names it")->required();
 }
 
 /// Refuses options that would be ignored.

@@ -138,14 +138,14 @@ void require_trusted(Database& db, const v1::WorkerIdentity& worker) {
             "all workers of this host; look after the machine, and run affskel-server trust on the server's");
 }
 
-void trust(Database& db, const std::string& who) {
-  if (db.run("DELETE FROM distrusted WHERE ? IN (worker, host)", who) > 0) return;
+void trust(Database& db, const std::string& host) {
+  if (db.run("DELETE FROM distrusted WHERE host = ?", host) > 0) return;
   std::string hosts;
-  Statement row = db.query("SELECT host FROM distrusted WHERE worker = host ORDER BY host");
+  Statement row = db.query("SELECT DISTINCT host FROM distrusted ORDER BY host");
   while (row.step()) hosts += (hosts.empty() ? "" : ", ") + base::quoted(row.text(0));
   throw StoreError(StoreError::Code::kNotFound,
-                   "nobody distrusts " + base::quoted(who) +
-                       (hosts.empty() ? "; no host is distrusted" : "; distrusted hosts: " + hosts));
+                   "nobody distrusts the host " + base::quoted(host) +
+                       (hosts.empty() ? ", nor any other" : "; distrusted, or with such workers: " + hosts));
 }
 
 }  // namespace affskel::server

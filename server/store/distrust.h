@@ -26,8 +26,9 @@ std::set<std::string> distrusted(Database& db);
 /// @throws StoreError kForbidden where the worker is to get none.
 void require_trusted(Database& db, const v1::WorkerIdentity& worker);
 
-/// A host, with all its workers, or a worker is no longer distrusted.  What it gave to fields stays out of them.
-/// @throws StoreError kNotFound naming the hosts that are distrusted.
-void trust(Database& db, const std::string& who);
+/// A host is no longer distrusted, nor is any worker there that was by itself.  What they gave to fields stays out of
+/// them.
+/// @throws StoreError kNotFound naming the hosts that are distrusted, or have such workers.
+void trust(Database& db, const std::string& host);
 
 }  // namespace affskel::server

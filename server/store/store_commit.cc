@@ -127,12 +127,12 @@ void Store::commit_all(std::span<Change* const> together) {
   for (Change* change : together) {
     const Changes& made = change->changes;
     if ((made.grown && !made.partly) || made.eased) reserve_.allow_retry();
-    note_stuck(made);
     try {
+      note_stuck(made);
       change->changes.counts.push_back([waited = begun - change->asked, worked = committed - begun](
                                            Metrics& metrics) { metrics.transaction(waited, worked); });
     } catch (const std::bad_alloc&) {
-      // A count is lost; what is committed must not be made again.
+      // A count or a note is lost; what is committed must not be made again.
     }
   }
 }

@@ -93,6 +93,22 @@ class VerifyTest : public testing::Test {
     return field(lab, job);
   }
 
+  v1::Giver only_giver(const std::string& job) {
+    v1::ListJobEventsRequest request;
+    request.set_job(job);
+    v1::ListJobEventsResponse events;
+    grpc::ClientContext context;
+    EXPECT_TRUE(lab_.stub().ListJobEvents(&context, request, &events).ok());
+    EXPECT_EQ(events.givers_size(), 1);
+    return events.givers_size() == 1 ? events.givers(0) : v1::Giver();
+  }
+
+  /// The server's own worker leaves, or, against what is expected, finishes the job.
+  void wait_for_no_successor(const std::string& job) const {
+    while (lab_.read("server.log").find("none is started in its place") == std::string::npos)
+      ASSERT_NE(lab_.job(job).state(), v1::JOB_STATE_DONE);
+  }
+
   /// Submits and prepares the job by a real worker, which leaves; then the liar takes its first block.
   std::string begin_with_lie(std::optional<double> share_of_volume) {
     const std::string job = submit(lab_);
@@ -194,19 +210,12 @@ TEST_F(VerifyTest, ADistrustedHostHasNoWorkersUntilItIsTrustedAgain) {
     const Process server = lab_.server({"--workers", "1"});
     job = lab_.submit({"--points", "500"});
     ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
-    v1::ListJobEventsRequest request;
-    request.set_job(job);
-    v1::ListJobEventsResponse events;
-    grpc::ClientContext context;
-    ASSERT_TRUE(lab_.stub().ListJobEvents(&context, request, &events).ok());
-    ASSERT_EQ(events.givers_size(), 1);
-    host = events.givers(0).host();
+    const v1::Giver giver = only_giver(job);
+    host = giver.host();
     const Output answer = lab_.client({"resume", job, "--distrust", host});
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
     EXPECT_NE(answer.err.find("until affskel-server trust"), std::string::npos) << answer.err;
-    while (lab_.read("server.log").find("none is started in its place") == std::string::npos) {
-      ASSERT_NE(lab_.job(job).state(), v1::JOB_STATE_DONE);
-    }
+    wait_for_no_successor(job);
     Process another = lab_.worker({"--threads", "1", "--idle-exit", "1"});
     EXPECT_EQ(another.wait(), 7);
     EXPECT_EQ(lab_.job(job).state(), v1::JOB_STATE_QUEUED);
@@ -238,16 +247,9 @@ TEST_F(VerifyTest, ADistrustedWorkerOfTheServersOwnHasNoSuccessorBeforeTheServer
     const Process server = lab_.server({"--workers", "1"});
     job = lab_.submit({"--points", "500"});
     ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
-    v1::ListJobEventsRequest request;
-    request.set_job(job);
-    v1::ListJobEventsResponse events;
-    grpc::ClientContext context;
-    ASSERT_TRUE(lab_.stub().ListJobEvents(&context, request, &events).ok());
-    ASSERT_EQ(events.givers_size(), 1);
-    EXPECT_EQ(lab_.client({"resume", job, "--distrust", events.givers(0).worker()}).exit_code, 0);
-    while (lab_.read("server.log").find("none is started in its place") == std::string::npos) {
-      ASSERT_NE(lab_.job(job).state(), v1::JOB_STATE_DONE);
-    }
+    const v1::Giver giver = only_giver(job);
+    EXPECT_EQ(lab_.client({"resume", job, "--distrust", giver.worker()}).exit_code, 0);
+    wait_for_no_successor(job);
   }
   const Process server = lab_.server({"--workers", "1"});
   EXPECT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);

@@ -86,7 +86,7 @@ TEST_F(DistrustTest, AHostGetsNoWorkUntilItIsTrustedAgain) {
   EXPECT_STORE_ERROR(lease("new"), kForbidden);
   Database db(database(), Database::Mode::kReadWrite);
   EXPECT_EQ(error_of([&] { trust(db, "elsewhere"); }),
-            "nobody distrusts 'elsewhere'; distrusted hosts: 'test-host'");
+            "nobody distrusts the host 'elsewhere'; distrusted, or with such workers: 'test-host'");
   trust(db, "test-host");
   EXPECT_NO_THROW(store_->give_back(lease("new").token()));
   EXPECT_NO_THROW(lease("liar"));
@@ -97,7 +97,11 @@ TEST_F(DistrustTest, AWorkerAloneLeavesOthersOfItsHost) {
   const v1::Job job = job_with_lie();
   store_->resume_without(job.id(), "liar");
   EXPECT_STORE_ERROR(lease("liar"), kForbidden);
-  EXPECT_NO_THROW(lease("new"));
+  EXPECT_NO_THROW(store_->give_back(lease("new").token()));
+  Database db(database(), Database::Mode::kReadWrite);
+  EXPECT_STORE_ERROR(trust(db, "liar"), kNotFound);
+  trust(db, "test-host");
+  EXPECT_NO_THROW(lease("liar"));
 }
 
 }  // namespace
