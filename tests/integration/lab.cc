@@ -246,6 +246,17 @@ v1::Job Lab::job(const std::string& id) const {
   return job;
 }
 
+v1::Giver Lab::only_giver(const std::string& id) const {
+  v1::ListJobEventsRequest request;
+  request.set_job(id);
+  v1::ListJobEventsResponse events;
+  const grpc::Status status = call_when_ready(
+      [&](grpc::ClientContext& context) { return stub_->ListJobEvents(&context, request, &events); });
+  if (!status.ok()) throw std::runtime_error("ListJobEvents: " + status.error_message());
+  if (events.givers_size() != 1) throw std::runtime_error("not one giver: " + events.ShortDebugString());
+  return events.givers(0);
+}
+
 v1::Job Lab::follow(const std::string& id, const std::function<bool(const v1::Job&)>& condition) const {
   const auto give_up = std::chrono::system_clock::now() + kPatience;
   while (std::chrono::system_clock::now() < give_up) {

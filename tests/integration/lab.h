@@ -89,6 +89,9 @@ class Lab {
   /// The job as the server knows it.  Waits for a server that is just starting.
   v1::Job job(const std::string& id) const;
 
+  /// The one worker that gave all of the job's field.
+  v1::Giver only_giver(const std::string& id) const;
+
   /// Follows the job until the condition holds or it is in a final state; returns it as it was then.
   /// Re-attaches when the server goes away and comes back.
   v1::Job follow(const std::string& id, const std::function<bool(const v1::Job&)>& condition) const;

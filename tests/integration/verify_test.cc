@@ -93,16 +93,6 @@ class VerifyTest : public testing::Test {
     return field(lab, job);
   }
 
-  v1::Giver only_giver(const std::string& job) {
-    v1::ListJobEventsRequest request;
-    request.set_job(job);
-    v1::ListJobEventsResponse events;
-    grpc::ClientContext context;
-    EXPECT_TRUE(lab_.stub().ListJobEvents(&context, request, &events).ok());
-    EXPECT_EQ(events.givers_size(), 1);
-    return events.givers_size() == 1 ? events.givers(0) : v1::Giver();
-  }
-
   /// The server's own worker leaves, or, against what is expected, finishes the job.
   void wait_for_no_successor(const std::string& job) const {
     while (lab_.read("server.log").find("none is started in its place") == std::string::npos)
@@ -210,7 +200,7 @@ TEST_F(VerifyTest, ADistrustedHostHasNoWorkersUntilItIsTrustedAgain) {
     const Process server = lab_.server({"--workers", "1"});
     job = lab_.submit({"--points", "500"});
     ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
-    const v1::Giver giver = only_giver(job);
+    const v1::Giver giver = lab_.only_giver(job);
     host = giver.host();
     const Output answer = lab_.client({"resume", job, "--distrust", host});
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
@@ -247,7 +237,7 @@ TEST_F(VerifyTest, ADistrustedWorkerOfTheServersOwnHasNoSuccessorBeforeTheServer
     const Process server = lab_.server({"--workers", "1"});
     job = lab_.submit({"--points", "500"});
     ASSERT_EQ(lab_.follow_to_end(job).state(), v1::JOB_STATE_DONE);
-    const v1::Giver giver = only_giver(job);
+    const v1::Giver giver = lab_.only_giver(job);
     EXPECT_EQ(lab_.client({"resume", job, "--distrust", giver.worker()}).exit_code, 0);
     wait_for_no_successor(job);
   }
