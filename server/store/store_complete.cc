@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numeric>
 
 #include "base/number_text.h"
@@ -164,11 +165,16 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
       header.has_prepared() ? std::optional(checked_prepared(header, data)) : std::nullopt;
   const v1::TaskKind kind = read([&](Database& db) { return task_of_token(db, header.token()).kind; });
   if (kind == v1::TASK_KIND_VERIFY && !parts) return complete_sample(header.token(), data);
-  return write([&](Tx& tx) {
+  std::exception_ptr refusal;
+  const v1::ReportResponse response = write([&](Tx& tx) {
     const TaskRow task = held_task(tx, header.token());
     if (task.state == "done") return reply(false);
     tx.changes.jobs.insert(task.job_id);
     tx.changes.results.emplace(task.id, task.job_id);
+    if (!tx.room) {
+      refusal = refuse_for_now(tx, task);
+      return reply(false);
+    }
     tx.require_room();
     if (parts && task.on_request && task.kind == v1::TASK_KIND_PREPARE) {
       restore_prepared(tx, task, header, *parts);
@@ -203,6 +209,8 @@ v1::ReportResponse Store::complete(const v1::CompleteTaskHeader& header, std::st
     settle_job(tx, task.job_id);
     return reply(false);
   });
+  if (refusal) std::rethrow_exception(refusal);
+  return response;
 }
 
 namespace {

@@ -154,10 +154,6 @@ int expire(Tx& tx) {
                   "no progress for longer than its job gives reason for");
 }
 
-bool is_cancelled(const TaskRow& task, const JobRow& job) {
-  return !task.on_request && (!job.active() || job.cancel_requested);
-}
-
 /// Renews a lease of a worker that asks for more, or takes an input.  That it has ended, or its job was cancelled, the
 /// worker hears when it speaks of that lease.
 void renew_held(Tx& tx, const std::string& token) {

@@ -83,8 +83,7 @@ Progress add_positions(Tx& tx, const JobRow& job, const std::vector<Range>& rang
 
 void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
   const bool directions = task.kind == v1::TASK_KIND_ERODE;
-  const std::int64_t gap =
-      task.state == "leased" ? tx.lease_ms - task.reported_ms.value_or(task.granted_ms) : 0;
+  const std::int64_t gap = task.state == "leased" ? pause_ms(tx, task) : 0;
   std::string owner;
   {
     Statement row = tx.db.query(
@@ -111,32 +110,6 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
   if (progress.added > 0 && task.state == "leased") {
     tx.db.run("UPDATE tasks SET stalled_ms = ? WHERE id = ?", tx.lease_ms + patience_ms(tx, task), task.id);
   }
-}
-
-/// A lease that can make no progress at the moment.  Its worker tries several times a second, and every commit takes a
-/// little of what is left of the disk.
-void keep_waiting(Tx& tx, const TaskRow& task) {
-  const std::int64_t patience = patience_ms(tx, task);
-  tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?3)"
-      " WHERE id = ?4 AND (deadline_ms < ?1 + ?2 / 2 OR stalled_ms < ?1 + ?3 / 2)",
-      tx.lease_ms, tx.options.lease_ms, patience, task.id);
-}
-
-/// A report that the full disk cannot take.  Its worker will try again and keeps its leases meanwhile, those whose
-/// reports wait behind this one, too, unless the rest is not wanted any more.
-std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task, const JobRow& job) {
-  if (task.state == "leased" && (!job.active() || job.cancel_requested)) {
-    release_task(tx, task);
-    settle_job(tx, job.id);
-    tx.changes.eased = true;
-    return std::make_exception_ptr(
-        StoreError(StoreError::Code::kFenced, "the job was cancelled while the disk was full"));
-  }
-  tx.changes.refused = true;
-  for (const TaskRow& held : leased_tasks(tx.db))
-    if (held.worker == task.worker) keep_waiting(tx, held);
-  return std::make_exception_ptr(full_disk(tx.db));
 }
 
 }  // namespace
@@ -176,7 +149,7 @@ Store::Reported Store::report(const v1::ReportErosionHeader& header, const Recor
     tx.changes.jobs.insert(job.id);
     tx.changes.results.emplace(task.id, job.id);
     if (!tx.room) {
-      refusal = refuse_for_now(tx, task, job);
+      refusal = refuse_for_now(tx, task);
       return reply(false);
     }
     tx.require_room();
@@ -223,7 +196,7 @@ v1::ReportResponse Store::report_refined(const v1::ReportErosionHeader& header, 
     // A report that is repeated after its block was finished may find the next round begun.
     if (task.state == "done") return reply(false);
     if (!tx.room) {
-      refusal = refuse_for_now(tx, task, job);
+      refusal = refuse_for_now(tx, task);
       return reply(false);
     }
     tx.require_room();
@@ -268,7 +241,7 @@ bool Store::report_part(const std::string& token, const RecordBatch& records) {
     tx.changes.jobs.insert(job.id);
     tx.changes.results.emplace(task.id, job.id);
     if (!tx.room) {
-      refusal = refuse_for_now(tx, task, job);
+      refusal = refuse_for_now(tx, task);
       return false;
     }
     tx.require_room();

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <utility>
 
+#include "database/errors.h"
 #include "metrics/metrics.h"
 #include "store/field.h"
 #include "store/job_events.h"
 #include "store/job_life.h"
+#include "store/space.h"
 #include "store/verification.h"
 #include "wire/words.h"
 
@@ -60,6 +62,16 @@ double lost_directions(const Tx& tx, const TaskRow& task) {
   return std::min(left, rate_of(tx, task) * static_cast<double>(silence));
 }
 
+/// A lease that can make no progress at the moment.  Its worker tries several times a second, and every commit takes a
+/// little of what is left of the disk.  The first time counts, too: pause_ms() sees by it that there was a wait.
+void keep_waiting(Tx& tx, const TaskRow& task) {
+  tx.db.run(
+      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?3) WHERE id = ?4"
+      " AND (deadline_ms < ?1 + ?2 / 2 OR stalled_ms < ?1 + ?3 / 2"
+      "  OR stalled_ms <= ifnull(reported_ms, granted_ms) + ?3)",
+      tx.lease_ms, tx.options.lease_ms, patience_ms(tx, task), task.id);
+}
+
 /// Finishes a block of which nothing is left.
 bool finish_if_whole(Tx& tx, const TaskRow& task) {
   if (task.kind != v1::TASK_KIND_ERODE && task.kind != v1::TASK_KIND_REFINE) return false;
@@ -92,6 +104,10 @@ void count_ended(Tx& tx, const TaskRow& task, const v1::JobError& error) {
 
 }  // namespace
 
+bool is_cancelled(const TaskRow& task, const JobRow& job) {
+  return !task.on_request && (!job.active() || job.cancel_requested);
+}
+
 std::vector<Range> left_of_block(Database& db, const JobRow& job, const TaskRow& task) {
   const Done of = task.kind == v1::TASK_KIND_REFINE ? Done::kPoints : Done::kDirections;
   return remaining_ranges(db, job.erosion_id, task.block, of);
@@ -109,6 +125,13 @@ std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
                    task.job_id)
           .value_or(0);
   return std::max({tx.options.stall_ms, kGapsWithoutProgress * longest_gap, points / kPointsPerPatientMs});
+}
+
+std::int64_t pause_ms(Tx& tx, const TaskRow& task) {
+  const std::int64_t heard = task.reported_ms.value_or(task.granted_ms);
+  const std::int64_t patient_until =
+      tx.db.integer("SELECT stalled_ms FROM tasks WHERE id = ?", task.id).value_or(0);
+  return patient_until > heard + patience_ms(tx, task) ? 0 : tx.lease_ms - heard;
 }
 
 TaskRow held_task(Tx& tx, const std::string& token) {
@@ -155,6 +178,20 @@ void finish_task(Tx& tx, const TaskRow& task) {
 
 void release_task(Tx& tx, const TaskRow& task) {
   if (!finish_if_whole(tx, task)) clear_lease(tx, task, "pending");
+}
+
+std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task) {
+  if (task.state == "leased" && is_cancelled(task, get_job(tx.db, task.job_id))) {
+    release_task(tx, task);
+    settle_job(tx, task.job_id);
+    tx.changes.eased = true;
+    return std::make_exception_ptr(
+        StoreError(StoreError::Code::kFenced, "the job was cancelled while the disk was full"));
+  }
+  tx.changes.refused = true;
+  for (const TaskRow& held : leased_tasks(tx.db))
+    if (held.worker == task.worker) keep_waiting(tx, held);
+  return std::make_exception_ptr(full_disk(tx.db));
 }
 
 void release_all_leases(Tx& tx) {

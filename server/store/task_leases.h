@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,16 @@ std::vector<Range> left_of_block(Database& db, const JobRow& job, const TaskRow&
 
 /// Milliseconds that a task may be leased without progress.
 std::int64_t patience_ms(Tx& tx, const TaskRow& task);
+
+/// Milliseconds since the worker was last heard of its task, or had it; 0 when a full disk has kept it waiting since then.
+std::int64_t pause_ms(Tx& tx, const TaskRow& task);
+
+/// Whether nobody wants the task any more.
+bool is_cancelled(const TaskRow& task, const JobRow& job);
+
+/// A result that the full disk cannot take.  Its worker will try again and keeps its leases meanwhile, those whose
+/// results wait behind this one, too, unless the rest is not wanted any more.  To be thrown once that is committed.
+std::exception_ptr refuse_for_now(Tx& tx, const TaskRow& task);
 
 /// Ends the lease with the work finished; the token stays for a repeated last report.
 void finish_task(Tx& tx, const TaskRow& task);

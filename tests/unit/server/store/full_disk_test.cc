@@ -151,6 +151,66 @@ TEST_F(FullDiskTest, AWorkerThatTriesAgainKeepsItsLease) {
   EXPECT_EQ(store_->expire_leases(), 2) << "silent workers lose theirs as ever";
 }
 
+TEST_F(FullDiskTest, AResultThatIsRefusedKeepsTheOtherLeasesOfItsWorker) {
+  const std::string done = complete_job(10, 20).id();
+  submit("OFF 2");
+  prepare(50000, 64);
+  const v1::Lease block = lease();
+  store_->open_artifact(skeleton_request(done, 3));
+  const v1::Lease task = lease();
+  ASSERT_EQ(task.kind(), v1::TASK_KIND_SKELETON);
+  const std::string large(5 * kMiB, 's');
+  const v1::CompleteTaskHeader header = derive_header(task.token(), large, 3);
+  disk_.leave(kMiB / 2);
+  for (const std::int64_t end = clock_.lease_ms() + 2 * options_.stall_ms; clock_.lease_ms() < end;) {
+    clock_.advance(options_.lease_ms / 4);
+    for (const v1::Lease& held : {block, task}) EXPECT_NO_THROW(store_->renew(held.token()));
+    EXPECT_THROW(store_->complete(header, large), SqliteError);
+    ASSERT_EQ(store_->expire_leases(), 0);
+  }
+  disk_.leave(100 * kMiB);
+  store_->tidy();
+  EXPECT_NO_THROW(store_->complete(header, large));
+  EXPECT_NO_THROW(report(block, 0, 1));
+}
+
+TEST_F(FullDiskTest, AResultThatIsRefusedEndsWithItsCancelledJob) {
+  const v1::Job job = submit();
+  erode(10, 20);
+  const v1::Lease task = lease();
+  const std::string large(5 * kMiB, 's');
+  disk_.leave(kMiB / 2);
+  EXPECT_THROW(store_->complete(derive_header(task.token(), large, 3), large), SqliteError);
+  store_->cancel(job.id());
+  EXPECT_STORE_ERROR(store_->complete(derive_header(task.token(), large, 3), large), kFenced);
+  EXPECT_EQ(store_->job(job.id()).state(), v1::JOB_STATE_CANCELLED);
+}
+
+// The patience of a job follows from its longest pause between two reports.
+TEST_F(FullDiskTest, AWaitForTheDiskIsNoPauseBetweenReports) {
+  submit();
+  prepare(50000, 64);
+  const v1::Lease block = lease(), next = lease();
+  disk_.leave(3 * kMiB);
+  const std::uint64_t at = report_until_full(block, block.positions(0).begin());
+  disk_.leave(kMiB);
+  for (const std::int64_t end = clock_.lease_ms() + options_.stall_ms / 4; clock_.lease_ms() < end;) {
+    clock_.advance(options_.lease_ms / 4);
+    for (const v1::Lease& held : {block, next}) EXPECT_NO_THROW(store_->renew(held.token()));
+    EXPECT_THROW(report(block, at, at + 1), SqliteError);
+  }
+  disk_.leave(100 * kMiB);
+  store_->tidy();
+  report(block, at, at + 1);
+  const std::uint64_t first = next.positions(0).begin();
+  report(next, first, first + 1);
+  for (const std::int64_t end = clock_.lease_ms() + options_.stall_ms; clock_.lease_ms() <= end;) {
+    clock_.advance(options_.lease_ms / 4);
+    for (const v1::Lease& held : {block, next}) store_->renew(held.token());
+  }
+  EXPECT_EQ(store_->expire_leases(), 2) << "they have not been patient for longer than before";
+}
+
 // The end of the last block merges the log into the field, for which there is no room.
 TEST_F(FullDiskTest, AJobWhoseLastBlockEndsOnAFullDiskGoesOnWhenThereIsRoom) {
   const v1::Job job = submit();
