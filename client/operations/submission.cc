@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/utf8.h"
+#include "client/text/printable.h"
 #include "client/text/summary_text.h"
 #include "client/text/words.h"
 #include "core/erosion/directions.h"
@@ -44,7 +45,8 @@ v1::SubmitJobHeader header_for(const Submission& submission, const InputFile& in
   require_short(submission.name, kMaxName, "name");
   require_short(submission.request_id, kMaxRequestId, "request id");
   v1::SubmitJobHeader header;
-  header.set_name(submission.name.empty() ? protocol_text(job_name(input.path), kMaxName) : submission.name);
+  header.set_name(submission.name.empty() ? protocol_text(one_line(job_name(input.path)), kMaxName)
+                                          : submission.name);
   header.set_priority(submission.priority);
   v1::Sampling& sampling = *header.mutable_params()->mutable_sampling();
   if (submission.spacing > 0) {

@@ -10,6 +10,7 @@
 #include "client/operations/repair.h"
 #include "client/operations/submission.h"
 #include "client/render/scene.h"
+#include "client/text/printable.h"
 #include "client/view/page.h"
 #include "client/web/api_answers.h"
 #include "client/web/handlers.h"
@@ -73,7 +74,7 @@ std::string picture_of(const WebCall& call, const InputFile& input, const std::s
 
 std::string upload_name(const http::Request& request) {
   const std::string name = std::filesystem::path(request.parameter("name")).filename().string();
-  return name.empty() ? "mesh.off" : std::string(base::truncate_utf8(base::to_utf8(name), 200));
+  return name.empty() ? "mesh.off" : std::string(base::truncate_utf8(one_line(name), 200));
 }
 
 std::shared_ptr<UploadedMesh> mesh_of(const WebCall& call, const std::string& key) {

@@ -32,6 +32,13 @@ void check_size(const char* what, const std::string& text, std::size_t most) {
                     " bytes, and may have at most " + std::to_string(most));
 }
 
+/// What a line on a screen has no place for.
+void check_seen(const char* what, const std::string& text) {
+  const auto controls = [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; };
+  if (std::any_of(text.begin(), text.end(), controls))
+    refuse_submission(std::string(what) + " " + base::quoted(text) + " has a control character");
+}
+
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -82,6 +89,7 @@ void check_repair(const v1::MeshRepair& repair, std::uint64_t max_mesh_bytes) {
 
 void check_header(const v1::SubmitJobHeader& header, std::uint64_t max_mesh_bytes) {
   check_size("the name", header.name(), kMaxNameBytes);
+  check_seen("the name", header.name());
   check_size("the owner", header.owner(), kMaxOwnerBytes);
   check_size("the request id", header.request_id(), kMaxRequestIdBytes);
   check_size("the direction set", header.params().directions(), kMaxDirectionsBytes);

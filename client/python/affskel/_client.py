@@ -34,6 +34,9 @@ _COMMANDS = re.compile(r"; (?:fill them by: .*? --repair (fill=\S+) .*, or )?"
                        "take a new surface round all of it: .* --repair wrap .*")
 
 
+_CONTROLS = re.compile("[\\0-\\x1f\\x7f]")  # which no name may have
+
+
 def _own_way(commands: re.Match[str]) -> str:
     """What affskel-client's advice is here."""
     fill = f"fill them by repair='{commands[1]}', or " if commands[1] else ""
@@ -183,7 +186,7 @@ class Client:
         if not by_program:
             by_program = _needs_program(given, spacing, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
-        header.name = name if name is not None else _short(given.name, MAX_NAME)
+        header.name = name or _short(_CONTROLS.sub(" ", given.name), MAX_NAME)
         if isinstance(priority, bool) or not isinstance(priority, numbers.Integral) or priority not in range(10):
             raise UsageError(f"the priority {priority!r} is not a whole number 0 .. 9")
         header.priority = int(priority)

@@ -41,6 +41,16 @@ TEST_F(ClientTest, SubmitSendsTheFileAndPrintsTheIdAlone) {
   EXPECT_EQ(header.skeleton().operator_(), v1::OPERATOR_RIDGE);
 }
 
+TEST_F(ClientTest, AJobHasTheNameOfItsFileWithoutControlCharacters) {
+  tests::write_file(dir_ / "two\nlines\x1b[2J.off", mesh_);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--name", ""}}) {
+    std::vector<std::string> command = {"submit", dir_ / "two\nlines\x1b[2J.off"};
+    command.insert(command.end(), more.begin(), more.end());
+    EXPECT_EQ(run(command).exit_code, 0);
+    EXPECT_EQ(service_.submitted.name(), "two lines?[2J");
+  }
+}
+
 // Nobody can make files in /sys.
 TEST_F(ClientTest, SubmitFindsOutFirstWhetherItsFolderCanBeWritten) {
   const Outcome refused = run({"submit", dir_ / "cube.off", "-o", "/sys"});

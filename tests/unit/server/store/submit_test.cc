@@ -47,6 +47,8 @@ TEST_F(SubmitTest, RefusesWrongHeaders) {
   refused([](auto& h) { h.set_mesh_sha256(std::string(64, '0')); });
   refused([](auto& h) { h.set_priority(10); });
   refused([](auto& h) { h.set_name(std::string(201, 'n')); });
+  for (const char control : {'\0', '\n', '\x1b', '\x7f'})
+    refused([&](auto& h) { h.set_name(std::string("a") + control + "b"); });
   refused([](auto& h) { h.set_owner(std::string(101, 'n')); });
   refused([](auto& h) { h.mutable_params()->clear_sampling(); });
   refused([](auto& h) { h.mutable_params()->mutable_sampling()->set_spacing(-1); });
