@@ -24,6 +24,7 @@ ordered_json file_facts(const InputFile& input) {
     facts["submitted_bytes"] = text.view().size();
     facts["submitted_sha256"] = wire::sha256_hex(text.view());
   }
+  if (!input.off.unit.empty()) facts["unit"] = input.off.unit;
   facts["vertices"] = input.off.mesh.points.size();
   facts["polygons"] = input.off.polygons;
   facts["polygons_cut"] = input.off.polygons_cut;

@@ -121,7 +121,7 @@ std::string object_text(const Mesh& mesh, const std::string& id) {
 
 std::string threemf(const std::string& resources, const std::string& items, const std::string& attributes) {
   const std::string model =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" "
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model "
       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" " +
       attributes + "><resources>" + resources + "</resources><build>" + items + "</build></model>";
   const std::string told =

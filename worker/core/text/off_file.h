@@ -30,6 +30,7 @@ struct OffMesh {
   std::uint64_t uneven_line = 0;             ///< and its line, 0 = none
   double uneven_volume = 0;                  ///< of these, the sum of Unevenness::volume, mesh units cubed
   std::vector<PassedOver> passed_over;       ///< of formats that hold more than a mesh, in the file's order
+  std::string unit;  ///< of lengths, where the file names one: "millimeter", "inch", ...
 };
 
 /// Cuts a polygon into triangles (see cut_polygon), and counts it where it has more than three corners; of those with four

@@ -27,7 +27,7 @@ namespace affskel::core {
 ///                 columns_of_array), polygons and strips triangles; the rest is passed over;
 ///   .glb, .gltf   glTF 2.0: the triangles of the scene in its coordinates, not compressed, with all numbers in
 ///                 the file; corners at the same place become one vertex;
-///   .3mf          the triangles of all items that are built, in the file's unit.
+///   .3mf          the triangles of all items that are built, in the file's unit, without objects for support.
 /// Coordinates and normals are finite.
 /// @throws CoreError kBadInput with the line where there is one; kLimit for what would grow without bound, and for more
 ///   than 2^28 vertices or triangles.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/affine_map.h"
@@ -32,6 +33,12 @@ constexpr std::array<std::string_view, 3> kHarmless = {
     "http://schemas.microsoft.com/3dmanufacturing/production/",
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/"};
 
+// The first stands where a file names none.
+constexpr std::array<std::string_view, 6> kUnits = {"millimeter", "micron", "centimeter",
+                                                    "inch",       "foot",   "meter"};
+// Types of objects that help to build or to show the solid, and are no part of it.
+constexpr std::array<std::string_view, 3> kBesides = {"support", "solidsupport", "other"};
+
 struct Component {
   std::string object;
   AffineMap map;
@@ -39,6 +46,7 @@ struct Component {
 };
 
 struct Object {
+  std::string type;
   Mesh mesh;
   std::vector<Component> components;
 };
@@ -70,12 +78,14 @@ class Model final : public XmlHandler {
     if (!own_space_) {
       own_space_ = space;
       check_extensions(element);
+      read_unit(element.attribute("unit"));
     }
     if (space != *own_space_) return Next::kReadOn;
     if (name == "object") {
       const auto [object, is_new] = objects_.try_emplace(element.attribute("id"));
       if (!is_new) fail_at(element.line, "a second object has the id " + quoted_excerpt(object->first));
       object_ = &object->second;
+      object_->type = element.attribute("type");
     } else if (name == "vertex") {
       mesh(element).points.push_back({number(element, "x"), number(element, "y"), number(element, "z")});
     } else if (name == "triangle") {
@@ -93,11 +103,16 @@ class Model final : public XmlHandler {
 
   ShapeFile take() {
     ShapeFile file;
+    file.off.unit = unit_;
     if (built_.empty() && !objects_.empty())
       fail_at(0, std::string("has objects, and none of them is placed: its build is empty") + kInstead);
     for (const auto& [id, object] : objects_)
       held_ += std::max(object.mesh.points.size(), object.mesh.triangles.size());
     for (const Component& item : built_) add(item, AffineMap(), 0, file.off.mesh);
+    if (file.off.mesh.triangles.empty() && !besides_.empty())
+      fail_at(besides_.front().first_line,
+              "places only " + besides_.front().word + ", which are no part of a solid");
+    file.off.passed_over = std::move(besides_);
     file.off.polygons = file.off.mesh.triangles.size();
     return file;
   }
@@ -113,6 +128,20 @@ class Model final : public XmlHandler {
       if (!std::any_of(kHarmless.begin(), kHarmless.end(), begins))
         fail_at(element.line, "needs the extension " + quoted_excerpt(prefix) + " (" + space.substr(0, 100) +
                                   "), which is not read" + kInstead);
+    }
+  }
+  void read_unit(const std::string& unit) {
+    if (unit.empty()) unit_ = kUnits.front();
+    if (std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end()) unit_ = unit;
+  }
+  void pass_over(const std::string& type, std::uint64_t line) {
+    const std::string word = "objects of type " + type;
+    const auto known = std::find_if(besides_.begin(), besides_.end(),
+                                    [&](const PassedOver& one) { return one.word == word; });
+    if (known != besides_.end()) {
+      ++known->rows;
+    } else {
+      besides_.push_back({word, 1, line});
     }
   }
   // By an attribute of the extension for production.
@@ -147,6 +176,11 @@ class Model final : public XmlHandler {
     if (placed_ > kFewItems + kMaxCopies * held_)
       throw CoreError(CoreError::Code::kLimit, "is built of more than " + std::to_string(kMaxCopies) +
                                                    " times the triangles that it holds" + kInstead);
+    const std::string& type = found->second.type;
+    if (std::find(kBesides.begin(), kBesides.end(), type) != kBesides.end()) {
+      pass_over(type, component.line);
+      return;
+    }
     const auto first = static_cast<std::uint32_t>(whole.points.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       whole.points.push_back(map(mesh.points[i]));
@@ -165,6 +199,8 @@ class Model final : public XmlHandler {
   std::map<std::string, Object> objects_;
   Object* object_ = nullptr;  // the one that is read
   std::vector<Component> built_;
+  std::vector<PassedOver> besides_;
+  std::string unit_;
   std::uint64_t placed_ = 0, held_ = 0;
 };
 

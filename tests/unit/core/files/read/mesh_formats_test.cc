@@ -239,6 +239,36 @@ TEST(MeshFormats, ThreemfReadsTheElementsOfItsCoreAlone) {
       std::string::npos);
 }
 
+TEST(MeshFormats, ThreemfTellsItsUnit) {
+  const std::string one = object_text(box(), "1"), item = "<item objectid=\"1\"/>";
+  EXPECT_EQ(parse_mesh_file(".3mf", threemf(one, item)).off.unit, "millimeter") << "where none is named";
+  const MeshFile inches = parse_mesh_file(".3mf", threemf(one, item, "unit=\"inch\""));
+  EXPECT_EQ(inches.off.unit, "inch");
+  expect_box(inches, "3mf");
+  EXPECT_EQ(parse_mesh_file(".3mf", threemf(one, item, "unit=\"ell\"")).off.unit, "");
+}
+
+TEST(MeshFormats, ThreemfLeavesOutWhatIsNoPartOfTheSolid) {
+  const auto of_type = [](const std::string& id, const std::string& type) {
+    const std::string text = object_text(box(), id), model = "type=\"model\"";
+    return text.substr(0, text.find(model)) + "type=\"" + type + "\"" +
+           text.substr(text.find(model) + model.size());
+  };
+  const std::string objects =
+      of_type("1", "model") + of_type("2", "support") + of_type("3", "solidsupport") + of_type("4", "other") +
+      "<object id=\"5\"><components><component objectid=\"1\"/><component objectid=\"2\"/></components></object>";
+  const MeshFile built = parse_mesh_file(
+      ".3mf",
+      threemf(objects,
+              "<item objectid=\"2\"/><item objectid=\"3\"/><item objectid=\"4\"/><item objectid=\"5\"/>"));
+  expect_box(built, "3mf");
+  ASSERT_EQ(built.off.passed_over.size(), 3U);
+  EXPECT_EQ(built.off.passed_over[0].word, "objects of type support");
+  EXPECT_EQ(built.off.passed_over[0].rows, 2U);
+  EXPECT_NE(refusal(threemf(objects, "<item objectid=\"2\"/>")).find("only objects of type support"),
+            std::string::npos);
+}
+
 TEST(MeshFormats, ThreemfNamesAPlaceThatIsNotFinite) {
   const Mesh far{{{1e300, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}}};
   EXPECT_NE(refusal(threemf(object_text(far, "7"),
