@@ -59,6 +59,12 @@ class Inside {
   std::size_t sides() const { return sides_; }
   // Of the inner voxels, indices.
   const Box& reach() const { return reach_; }
+  bool reaches_border() const {
+    bool reaches = false;
+    for (std::size_t a = 0; a < 3; ++a)
+      reaches |= reach_.low[a] == 0 || reach_.high[a] == static_cast<double>(image_.size[a] - 1);
+    return reaches;
+  }
 
  private:
   // A voxel of the value itself lies outside, as the function is negative within alone.
@@ -115,6 +121,7 @@ Isosurface isosurface(const VoxelImage& image, const IsosurfaceOptions& options)
   const Inside inside(image, options.isovalue);
   Isosurface found;
   found.below = inside.below();
+  found.cut = inside.reaches_border();
   const double longest = inside.reach().longest_side() + 1;
   const double enough = std::sqrt(kTrianglesPerSide * static_cast<double>(inside.sides()) /
                                   (kTrianglesBefore * static_cast<double>(options.max_triangles)));

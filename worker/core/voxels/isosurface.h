@@ -18,6 +18,7 @@ struct IsosurfaceOptions {
 struct Isosurface {
   Mesh mesh;           ///< closed, manifold, outward; in the units of the image's places
   bool below = false;  ///< whether the solid is where values are below the isovalue
+  bool cut = false;    ///< whether the solid reaches the image's border, where it is closed
   /// Edge of the cubes that the surface is sought in, voxels: a 200th of the longest side of the solid's box, but no less
   /// than one, nor than gives eight times max_triangles.
   double resolution = 0;

@@ -56,6 +56,7 @@ TEST(Isosurface, OfABallHasItsVolume) {
           sampled({33, 27, 26}, place, [&](const Vec3& p) { return 5 + sign * ball(p); });
       const Isosurface found = isosurface(image, {5});
       EXPECT_EQ(found.below, sign > 0);
+      EXPECT_FALSE(found.cut);
       const Solid solid = make_solid(found.mesh);
       EXPECT_TRUE(solid.notes.empty());
       EXPECT_NEAR(solid.volume / volume, 1, 0.01);
@@ -84,6 +85,7 @@ TEST(Isosurface, IsClosedWhereTheSolidLeavesTheImage) {
   const VoxelImage image = sampled({31, 31, 14}, grid({-12, -17, -14}, 1), ball);
   const Isosurface found = isosurface(image, {0});
   const Solid solid = make_solid(found.mesh);
+  EXPECT_TRUE(found.cut);
   EXPECT_TRUE(solid.notes.empty());
   EXPECT_LT(solid.volume, 4.0 / 3 * M_PI * 1000 * 0.6);
 }

@@ -192,7 +192,8 @@ MeshFile mesh_of_voxels(std::string_view bytes, const MeshFileOptions& options) 
   file.told = "the surface at " + base::to_text(*options.isovalue) + " of " +
               std::to_string(image.numbers.size()) + " voxels, sought in cubes of " +
               base::rounded(surface.resolution, 3) + " voxels; the solid is where values are " +
-              (surface.below ? "below" : "above");
+              (surface.below ? "below" : "above") +
+              (surface.cut ? "; it reaches the image's border, and is closed there" : "");
   file.off.mesh = std::move(surface.mesh);
   file.off.polygons = file.off.mesh.triangles.size();
   return file;
