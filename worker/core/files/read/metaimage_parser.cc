@@ -24,10 +24,10 @@ bool says_true(const VoxelHeader& header, const char* name, bool usual = false) 
 AffineMap metaimage_place(const VoxelHeader& header, std::size_t axes) {
   const char* spacing_name = header.has("elementspacing") ? "elementspacing" : "elementsize";
   const auto s =
-      header.has(spacing_name) ? header.first_numbers(spacing_name, axes) : std::vector<double>(3, 1);
+      header.has(spacing_name) ? header.three_numbers(spacing_name, axes) : std::vector<double>(3, 1);
   std::vector<double> o(3, 0);
   for (const char* name : {"offset", "origin", "position"})
-    if (header.has(name)) o = header.first_numbers(name, axes);
+    if (header.has(name)) o = header.three_numbers(name, axes);
   std::vector<Vec3> steps{{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}};
   for (const char* name : {"transformmatrix", "rotation", "orientation"}) {
     if (!header.has(name)) continue;

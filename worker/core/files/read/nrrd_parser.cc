@@ -39,8 +39,13 @@ base::NumberKind nrrd_kind(const VoxelHeader& header) {
   fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
 }
 
-// @param axes of the image.
-AffineMap nrrd_place(const VoxelHeader& header, std::size_t axes) {
+// Of the image's axes, the first of the three in space: before it there may be that of the values at a place, a single one.
+std::size_t first_in_space(const std::vector<double>& sizes) {
+  return sizes.size() == 4 && sizes[0] == 1 && sizes[3] != 1 ? 1 : 0;
+}
+
+// @param axes of the image. @param first of the three in space.
+AffineMap nrrd_place(const VoxelHeader& header, std::size_t axes, std::size_t first) {
   const std::vector<double> origin =
       header.has("space origin") ? header.numbers("space origin", 3) : std::vector<double>(3, 0);
   const Vec3 shift{origin[0], origin[1], origin[2]};
@@ -48,8 +53,22 @@ AffineMap nrrd_place(const VoxelHeader& header, std::size_t axes) {
     const auto d = header.numbers("space directions", 9);
     return place_of({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, {d[6], d[7], d[8]}}, shift);
   }
-  const auto s = header.has("spacings") ? header.first_numbers("spacings", axes) : std::vector<double>(3, 1);
+  const auto s =
+      header.has("spacings") ? header.three_numbers("spacings", axes, first) : std::vector<double>(3, 1);
   return place_of({{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}}, shift);
+}
+
+// Whether the numbers are the last bytes, whatever is before them.
+bool are_last(const VoxelHeader& header, bool raw) {
+  bool last = false;
+  for (const char* name : {"line skip", "lineskip", "byte skip", "byteskip"}) {
+    const std::string skip = header.word(name, "0");
+    const bool to_last = raw && skip == "-1" && std::string_view(name).starts_with("byte");
+    if (skip != "0" && !to_last)
+      fail_at(header.line(name), "skips lines or bytes before its numbers, which is not read");
+    last |= to_last;
+  }
+  return last;
 }
 
 }  // namespace
@@ -72,16 +91,20 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   for (const char* name : {"data file", "datafile"})
     if (header.has(name)) other = read_numbers_beside(header.word(name), header.line(name), beside);
   VoxelImage image;
-  const std::vector<double> sizes = header.numbers("sizes");
+  std::vector<double> sizes = header.numbers("sizes");
+  const std::size_t axes = sizes.size(), first = first_in_space(sizes);
+  sizes.erase(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(first));
   image.size = sizes_of(sizes, header.line("sizes"));
-  image.place = nrrd_place(header, sizes.size());
+  image.place = nrrd_place(header, axes, first);
   const std::size_t count = voxels_of(image.size);
   const base::NumberKind kind = nrrd_kind(header);
   const bool big = base::lower_case(header.word("endian")) == "big";
   const std::string encoding = base::lower_case(header.word("encoding", "raw"));
-  for (const char* name : {"line skip", "lineskip", "byte skip", "byteskip"})
-    if (header.word(name, "0") != "0")
-      fail_at(header.line(name), "skips lines or bytes before its numbers, which is not read");
+  if (are_last(header, encoding == "raw")) {
+    const std::size_t given = other ? other->size() : data.size(), wanted = count * kind.bytes;
+    if (given > wanted && other) other->erase(0, given - wanted);
+    if (given > wanted && !other) data.remove_prefix(given - wanted);
+  }
   const bool packed = encoding == "gz" || encoding == "gzip";
   if (packed) other = unpack(other ? *other : data);
   if (packed || encoding == "raw") {

@@ -32,16 +32,18 @@ std::vector<std::string> VoxelHeader::words(const char* name) const {
 
 std::vector<double> VoxelHeader::numbers(const char* name) const {
   std::vector<double> found;
-  for (const std::string& one : words(name)) found.push_back(parse_finite(one, line(name), name));
+  for (const std::string& one : words(name))
+    if (one != "none") found.push_back(parse_finite(one, line(name), name));
   return found;
 }
 
-std::vector<double> VoxelHeader::first_numbers(const char* name, std::size_t axes) const {
+std::vector<double> VoxelHeader::three_numbers(const char* name, std::size_t axes, std::size_t first) const {
   const std::vector<std::string> all = words(name);
   if (all.size() != 3 && all.size() != axes)
     fail_at(line(name), std::string(name) + " needs " + std::to_string(axes) + " numbers");
   std::vector<double> found;
-  for (std::size_t i = 0; i < 3; ++i) found.push_back(parse_finite(all[i], line(name), name));
+  if (all.size() == 3) first = 0;
+  for (std::size_t i = 0; i < 3; ++i) found.push_back(parse_finite(all[first + i], line(name), name));
   return found;
 }
 

@@ -16,13 +16,13 @@ class VoxelHeader {
   bool has(const char* name) const { return fields_.contains(name); }
   std::string word(const char* name, const char* usual = "") const;
   std::uint64_t line(const char* name) const;  ///< 0 where there is no such field
-  /// All numbers of a field; parentheses and commas part them, too.
+  /// All numbers of a field; parentheses and commas part them, too, and the word none stands for no number.
   /// @throws CoreError kBadInput with the line.
   std::vector<double> numbers(const char* name) const;
   std::vector<double> numbers(const char* name, std::size_t count) const;
-  /// The first three of a field that has a word for each of `axes`, or three; what those behind say, which are of one
-  /// item, does not matter (spacings are NaN there).
-  std::vector<double> first_numbers(const char* name, std::size_t axes) const;
+  /// Three of a field that has a word for each of `axes`, or three alone: those from `first` on.  What the others say,
+  /// which are of one item, does not matter (spacings are NaN there).
+  std::vector<double> three_numbers(const char* name, std::size_t axes, std::size_t first = 0) const;
 
  private:
   std::vector<std::string> words(const char* name) const;

@@ -75,6 +75,30 @@ TEST(ParseVoxels, OfEveryNameOfATypeAndWithWhatSaysNothing) {
   expect_image(parse_voxels(metaimage("MET_LONG", "", data)));
 }
 
+// Of a header of unknown length, say.
+TEST(ParseVoxels, OfNumbersThatAreTheLastBytes) {
+  const std::string data = bytes_of<std::int32_t>(false), last = "byte skip: -1\nencoding: raw\n";
+  expect_image(parse_voxels(nrrd("int", last, "before them" + data)));
+  expect_image(parse_voxels(nrrd("int", "data file: body.raw\n" + last, ""),
+                            [&](const std::string&) { return "before them" + data; }));
+  EXPECT_NE(image_refusal(nrrd("int", last, data.substr(1))).find("only 95 bytes follow"), std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("int", "byte skip: -1\nencoding: text\n", data)).find("skips"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(nrrd("int", "line skip: -1\nencoding: raw\n", data)).find("skips"),
+            std::string::npos);
+}
+
+TEST(ParseVoxels, OfAFirstAxisOfOneItem) {
+  const std::string data = bytes_of<float>(false),
+                    begin = "NRRD0004\ntype: float\ndimension: 4\nsizes: 1 3 4 2\n",
+                    end = "encoding: raw\n\n" + data;
+  const VoxelImage spaced = parse_voxels(begin + "spacings: nan 2 3 4\n" + end);
+  EXPECT_EQ(spaced.size, (std::array<std::size_t, 3>{3, 4, 2}));
+  EXPECT_EQ(spaced.place({1, 1, 1}), (Vec3{2, 3, 4}));
+  const VoxelImage turned = parse_voxels(begin + "space directions: none (0,2,0) (3,0,0) (0,0,4)\n" + end);
+  EXPECT_EQ(turned.place({1, 0, 0}), (Vec3{0, 2, 0}));
+}
+
 // A fourth axis of one item has a size, a spacing, which may be no number, and a row and a column of the matrix.
 TEST(ParseVoxels, OfAFourthAxisOfOneItem) {
   const std::string data = bytes_of<float>(false);
@@ -224,6 +248,7 @@ TEST(ParseVoxels, AMeshNeedsTheValueAtItsSurface) {
   EXPECT_EQ(file.format, "voxels");
   EXPECT_GT(file.off.mesh.triangles.size(), 10U);
   EXPECT_NE(file.told.find("24 voxels"), std::string::npos);
+  EXPECT_NE(file.told.find("reaches the image's border"), std::string::npos);
   EXPECT_THROW(parse_mesh_file(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", {100}), CoreError)
       << "a mesh has no such value";
 }
