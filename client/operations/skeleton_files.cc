@@ -39,6 +39,19 @@ bool wants_complex(const FetchRequest& request, const v1::SkeletonParams& params
          (wire::gives_sheet(params.operator_()) || !is_one_of(skeleton_formats(), format));
 }
 
+// Of a curve alone, what has a place for lines alone: .swc, say.
+bool wants_lines(Session& session, const FetchRequest& request) {
+  const auto has = [extension = request.destination.extension()](std::span<const FileFormat> formats) {
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](FileFormat format) { return extension == extension_of(format); });
+  };
+  if (form_of(request) != Form::kByExtension || has(skeleton_file_formats()) || !has(curve_file_formats()))
+    return false;
+  const std::string& named = request.skeleton.operator_name;
+  return (named.empty() ? session.get_job(request.job).skeleton().operator_() : operator_named(named)) ==
+         v1::OPERATOR_CURVE;
+}
+
 std::span<const FileFormat> formats_of(Form form) {
   return form == Form::kSurface  ? surface_formats()
          : form == Form::kPoints ? skeleton_formats()
@@ -181,6 +194,7 @@ Fetched fetch_armature(Session& session, const FetchRequest& request, const Chos
 }  // namespace
 
 Fetched fetch_skeleton(Session& session, const FetchRequest& request) {
+  if (wants_lines(session, request)) return fetch_curve(session, request);
   const bool barriers = request.barrier || request.min_barrier > 0;
   ShapeOutput output(request.destination, formats_of(form_of(request)),
                      barriers ? "skeleton with barriers" : "skeleton");

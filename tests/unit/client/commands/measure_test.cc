@@ -138,6 +138,23 @@ TEST_F(MeasureTest, FetchWritesTheCurveAsAGraph) {
   EXPECT_TRUE(tests::read_file(dir_ / "curve.glb").starts_with("glTF"));
 }
 
+TEST_F(MeasureTest, ASkeletonThatIsACurveIsWrittenAsFetchCurveDoes) {
+  service_.artifacts[v1::ARTIFACT_KIND_SURFACE] = sample_parts().curve().SerializeAsString();
+  for (const char* extension : {".swc", ".json", ".graphml", ".glb"}) {
+    const std::string file = dir_ / (std::string("c") + extension),
+                      same = dir_ / (std::string("d") + extension);
+    const Outcome named = run({"skeleton", "@last", "--operator", "curve", "-o", file});
+    ASSERT_EQ(named.exit_code, 0) << named.err;
+    ASSERT_EQ(run({"fetch", "@last", "curve", "-o", same}).exit_code, 0);
+    EXPECT_EQ(tests::read_file(file), tests::read_file(same));
+  }
+  EXPECT_EQ(run({"skeleton", "@last", "--operator", "ridge", "-o", dir_ / "c.swc"}).exit_code, 2);
+  EXPECT_EQ(
+      run({"skeleton", "@last", "--operator", "curve", "--as", "points", "-o", dir_ / "c.swc"}).exit_code, 2);
+  service_.job.mutable_skeleton()->set_operator_(v1::OPERATOR_CURVE);
+  EXPECT_EQ(run({"skeleton", "@last", "-o", dir_ / "c.swc"}).exit_code, 0) << "the job's own";
+}
+
 TEST_F(MeasureTest, TheFieldHasPartsWhereTheyAreAskedFor) {
   const std::string file = dir_ / "field.csv";
   ASSERT_EQ(run({"fetch", "@last", "field", "--parts", "-o", file}).exit_code, 0);
