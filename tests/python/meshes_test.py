@@ -155,6 +155,14 @@ class SameMesh(unittest.TestCase):
             self.assertEqual(said["skeleton"], dict(operator="flux", threshold=.4))
             self.assertEqual((said["name"], said["priority"]), ("n", 7))
 
+    def test_a_job_has_the_name_of_its_file_unless_it_is_given_one(self):
+        named = directory / "two\nlines.off"
+        named.write_bytes((directory / "body.off").read_bytes())
+        for number, name in enumerate((None, "")):
+            self.assertEqual(client.submit(named, spacing=310 + number, name=name).status().name, "two lines")
+        with self.assertRaises(affskel.UsageError):
+            client.submit(named, spacing=320, name="nul\0")
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -121,6 +121,17 @@ TEST(ReadInput, MakesOffTextOfOtherFormats) {
   }
 }
 
+TEST(ReadInput, TellsTheUnitOfAFileThatHasOne) {
+  InputFile input;
+  input.off_text = false;
+  input.format = "3mf";
+  input.off.unit = "inch";
+  const Notices notices = conversion_notices(input);
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_NE(notices[0].message.find("0 triangles with lengths in its unit, the inch;"), std::string::npos)
+      << notices[0].message;
+}
+
 TEST(ReadInput, KeepsTheBytesOfOffText) {
   const tests::TemporaryDirectory dir;
   const std::string text = "# mine\n" + core::write_off(core::make_box(3, 2, 1));
