@@ -108,6 +108,17 @@ ordered_json session_json(const WebState& web, const WebUser& user) {
           {"packed_files", core::packed_extensions()}};
 }
 
+// This machine's user for a key, which stays new while the server cannot be asked; nobody when it is none.
+std::optional<WebUser> user_of_key(WebState& web, const std::string& key) {
+  if (!web.sessions.use_key(key)) return std::nullopt;
+  try {
+    return user_of(web.backend.session(), nullptr);
+  } catch (...) {
+    web.sessions.give_back(key);
+    throw;
+  }
+}
+
 }  // namespace
 
 http::Response answer_session(WebCall& call) {
@@ -118,20 +129,20 @@ http::Response answer_session(WebCall& call) {
 http::Response begin_session(WebCall& call) {
   WebState& web = call.web;
   const nlohmann::json body = json_body(call.request);
-  WebUser user;
+  std::optional<WebUser> user;
   if (!web.options.personal) {
     const std::string token = text_member(body, "token");
     if (!may_be_token(token)) throw ClientError(ExitCode::kNotAllowed, "this is no token");
     if (const auto time = web.brake.put_off(call.request.peer, token)) return come_again(*time);
     user = braked_user(web, call.request.peer, token);
-  } else if (web.sessions.use_key(text_member(body, "key"))) {
-    user = user_of(web.backend.session(), nullptr);
   } else {
-    return api_error(401, "NOT_ALLOWED", "this address has been used before, or is not of this service");
+    user = user_of_key(web, text_member(body, "key"));
   }
-  const auto secret = web.sessions.begin(user);
+  if (!user)
+    return api_error(401, "NOT_ALLOWED", "this address has been used before, or is not of this service");
+  const auto secret = web.sessions.begin(*user);
   if (!secret) return api_error(503, "LIMIT", "too many people are signed in; try again later");
-  http::Response response = api_answer(session_json(web, user));
+  http::Response response = api_answer(session_json(web, *user));
   response.headers.emplace_back("Set-Cookie", session_cookie(web.options.port, web.options.secure, *secret));
   return response;
 }

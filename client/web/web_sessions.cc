@@ -62,4 +62,9 @@ bool WebSessions::use_key(const std::string& key) {
   return keys_.erase(wire::sha256_hex(key)) > 0;
 }
 
+void WebSessions::give_back(const std::string& key) {
+  const base::MutexLock lock(mutex_);
+  keys_.insert(wire::sha256_hex(key));
+}
+
 }  // namespace affskel::client

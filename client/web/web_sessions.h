@@ -55,6 +55,8 @@ class WebSessions {
   std::string new_key();
   /// Whether it is such a key and was not used before; it is used then.
   bool use_key(const std::string& key);
+  /// What such a key was used for did not come about: it may be used again.
+  void give_back(const std::string& key);
 
  private:
   struct Session {

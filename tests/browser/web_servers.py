@@ -45,6 +45,31 @@ class Bench:
         self.directory.cleanup()
 
 
+class Away:
+    """A server without workers that comes and goes, and the page beside it, which is its user's."""
+
+    def __init__(self, client, server, environment):
+        self.directory = tempfile.TemporaryDirectory(prefix="affskel-away-", ignore_cleanup_errors=True)
+        address = "unix:" + os.path.join(self.directory.name, "s")
+        self.command = [server, "--data-dir", os.path.join(self.directory.name, "data"), "--listen", address, "--workers", "0"]
+        self.come()
+        self.service = Service(client, environment, "--server", address)
+
+    def come(self):
+        self.server = subprocess.Popen(self.command, stderr=subprocess.PIPE, text=True)
+        next(line for line in self.server.stderr if "event=listening" in line)
+
+    def go(self):
+        self.server.send_signal(signal.SIGTERM)
+        self.server.communicate()
+
+    def close(self):
+        code = self.service.close()
+        self.go()
+        self.directory.cleanup()
+        return code
+
+
 class Lab:
     """A server that asks for tokens, with a worker, and the page beside it."""
 

@@ -18,7 +18,7 @@ if not all(os.path.isfile(os.environ.get(program, "")) for program in ["CHROMIUM
 from selenium.webdriver.common.keys import Keys
 
 from web_page import Browsers, Service
-from web_servers import Bench, Lab
+from web_servers import Away, Bench, Lab
 
 CLIENT, SERVER = sys.argv[1:3]
 DESKTOP = dict(width=1200, height=900)
@@ -596,6 +596,27 @@ class Desktop(OnThePage):
         self.service = Service(CLIENT, bench.environment, http=self.service.origin.removeprefix("http://"))
         other.script(f"location.href = '{self.service.address}'")
         other.heading("Jobs")
+
+
+class WhereTheServerComesAndGoes(unittest.TestCase):
+    def test_the_page_waits_for_it(self):
+        away = Away(CLIENT, SERVER, bench.environment)
+        self.addCleanup(lambda: self.assertEqual(away.close(), 0))
+        away.go()
+        page = self.enterContext(browsers.visitor(**DESKTOP))
+        for _ in range(2):  # the key is as new as before
+            page.open(away.service.address)
+            page.wait(lambda: "Trying again" in page.text())
+        away.come()
+        page.heading("Jobs")
+        self.assertNotIn("key=", page.driver.current_url)
+        away.go()
+        page.wait(lambda: "Trying again" in page.text())
+        page.driver.refresh()
+        page.heading("Jobs")
+        page.wait(lambda: "Trying again" in page.text())
+        away.come()
+        page.wait(lambda: "Trying again" not in page.text())
 
 
 class SigningIn(unittest.TestCase):

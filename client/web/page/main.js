@@ -6,7 +6,7 @@ import { JobView } from './job.js';
 import { JobList } from './jobs.js';
 import { NewJob } from './mesh.js';
 import { Overview } from './overview.js';
-import { Poll } from './poll.js';
+import { Poll, pauseAfter } from './poll.js';
 import { Rates } from './rate.js';
 import { forget, openSession, session, signOut } from './session.js';
 import { signInView } from './sign_in.js';
@@ -88,6 +88,19 @@ async function leave() {
   showSignIn();
 }
 
+// While the server is away: whoever opens the page then has it as soon as it is back.
+async function openPatiently() {
+  for (let tries = 1; ; tries += 1) {
+    try {
+      return await openSession();
+    } catch (error) {
+      if (error.status > 0 && error.status < 500) throw error;
+      showProblem(`${error.message} Trying again …`);
+    }
+    await new Promise((resolve) => setTimeout(resolve, pauseAfter(tries)));
+  }
+}
+
 async function begin() {
   byId('account').append(button('Sign out', leave, { id: 'sign-out' }));
   byId('skip').addEventListener('click', (event) => {
@@ -104,10 +117,9 @@ async function begin() {
     showSignIn('The session has ended.');
   });
   try {
-    await openSession();
+    await openPatiently();
   } catch (error) {
-    if (error.status !== 401) showProblem(error.message);
-    return showSignIn(error.status === 401 ? 'The address has been used before.' : '');
+    return showSignIn(error.status === 401 ? 'The address has been used before.' : error.message);
   }
   return session.signed_in ? enter() : showSignIn();
 }

@@ -5,6 +5,12 @@ const kIdle = 5000;
 const kHidden = 20000; // a private server leaves after a minute without calls
 const kLongest = 30000;
 
+/**
+ * Milliseconds until it is asked again what had no answer so often in a row.
+ * @param {number} failures
+ */
+export const pauseAfter = (failures) => Math.min(kLongest, kSoon * 2 ** failures);
+
 /** One question, asked as long as its view is seen. */
 export class Poll {
   // `ask` gets the signal that ends its calls, and returns whether something happens; it throws when there is no
@@ -38,7 +44,7 @@ export class Poll {
       this.failed(error);
     }
     if (asking.signal.aborted) return; // stopped, or asked anew meanwhile
-    const pause = this.failures > 0 ? Math.min(kLongest, kSoon * 2 ** this.failures) : busy ? kSoon : kIdle;
+    const pause = this.failures > 0 ? pauseAfter(this.failures) : busy ? kSoon : kIdle;
     this.timer = setTimeout(() => this.now(), document.hidden ? Math.max(pause, kHidden) : pause);
   }
 

@@ -13,22 +13,25 @@ function take(answer) {
   return session;
 }
 
-// The key of the address, which opens the page once; it leaves the address at once.
-function keyOfAddress() {
-  const key = new URLSearchParams(location.hash.slice(1)).get('key');
-  if (key) history.replaceState(null, '', location.pathname);
-  return key;
-}
+const dropKey = () => history.replaceState(null, '', location.pathname);
 
 /**
- * Begins a session by the address, or finds the one that the browser has.
+ * Begins a session by the address, or finds the one that the browser has.  The address's key opens the page once, and
+ * leaves the address once it was used: until then the page may be loaded again.
  * @returns {Promise<Session>}
  */
 export async function openSession() {
-  const key = keyOfAddress();
+  const key = new URLSearchParams(location.hash.slice(1)).get('key');
   const found = take(await call('GET', '/api/session'));
-  if (found.signed_in || !key) return session;
-  return take(await call('POST', '/api/session', { key }));
+  if (!key) return session;
+  try {
+    if (!found.signed_in) take(await call('POST', '/api/session', { key }));
+  } catch (error) {
+    if (error.status === 401) dropKey();
+    throw error;
+  }
+  dropKey();
+  return session;
 }
 
 const kMostTries = 15;

@@ -9,6 +9,9 @@ TEST_F(WebServiceTest, AKeyOpensThePageOnce) {
   EXPECT_EQ(ask("POST", "/api/session", "{}").status, 401);
   EXPECT_EQ(ask("POST", "/api/session", "no object").status, 400);
   const std::string key = json({{"key", web_->new_key()}}).dump();
+  service_.fails = {grpc::StatusCode::UNAVAILABLE, "away"};
+  EXPECT_EQ(ask("POST", "/api/session", key).status, 503) << "which uses no key up";
+  service_.fails = grpc::Status::OK;
   const Answer first = ask("POST", "/api/session", key);
   EXPECT_EQ(first.status, 200);
   EXPECT_NE(first.header("Set-Cookie").find("HttpOnly; SameSite=Strict"), std::string::npos);
