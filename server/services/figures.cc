@@ -1,6 +1,8 @@
 #include "services/figures.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -73,6 +75,19 @@ void add_workers(Gauges& gauges, const std::vector<v1::WorkerInfo>& workers) {
   gauges.metric("affskel_worker_threads", "Threads of the workers that are not silent").value(threads);
 }
 
+/// Nobody tells who waits for them: others' jobs go on.
+void add_too_large(Gauges& gauges, const StoreFigures& figures,
+                   const std::vector<WorkerRegistry::Present>& workers) {
+  std::uint64_t most = 0;
+  for (const WorkerRegistry::Present& worker : workers)
+    most = std::max(most, worker.memory > 0 ? worker.memory : std::numeric_limits<std::uint64_t>::max());
+  std::int64_t tasks = 0;
+  for (const auto& [need, waiting] : figures.needs)
+    if (!workers.empty() && static_cast<std::uint64_t>(need) > most) tasks += waiting;
+  gauges.metric("affskel_queue_too_large_tasks", "Tasks that wait for more memory than any worker has")
+      .value(number(tasks));
+}
+
 void add_calls(Gauges& gauges, const CallRoom& room) {
   gauges.metric("affskel_connections", "Connections that are open").value(number(room.connections.size()));
   gauges.metric("affskel_calls", "Calls under way").value(number(room.connections.calls()));
@@ -117,6 +132,7 @@ std::vector<prometheus::MetricFamily> figures_of(Store& store, const WorkerRegis
   add_queue(gauges, figures);
   add_owners(gauges, figures.owners);
   add_workers(gauges, registry.list());
+  add_too_large(gauges, figures, registry.present());
   add_calls(gauges, room);
   add_disk(gauges, figures);
   gauges.metric("affskel_start_time_seconds", "Unix time of the server's start")

@@ -35,8 +35,10 @@ struct DiskFigures {
 
 /// What the database holds at a moment.
 struct StoreFigures {
-  std::vector<QueueFigures> queue;             ///< by priority, all ten
-  std::map<std::string, std::int64_t> jobs;    ///< by state; every state
+  std::vector<QueueFigures> queue;  ///< by priority, all ten
+  std::map<std::int64_t, std::int64_t>
+      needs;                                 ///< such tasks by the memory that their workers must have, bytes
+  std::map<std::string, std::int64_t> jobs;  ///< by state; every state
   std::map<std::string, std::int64_t> leases;  ///< by kind of task
   std::int64_t requests = 0;                   ///< for artefacts that are not there yet
   std::vector<OwnerFigures> owners;            ///< those with most jobs first

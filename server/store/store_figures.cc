@@ -26,6 +26,13 @@ std::vector<QueueFigures> queue_figures(Database& db, std::int64_t now_ms) {
   return queue;
 }
 
+std::map<std::int64_t, std::int64_t> need_figures(Database& db) {
+  std::map<std::int64_t, std::int64_t> needs;
+  Statement row = db.query("SELECT needs_memory, sum(ready) FROM queues GROUP BY needs_memory");
+  while (row.step()) needs[row.integer(0)] = row.integer(1);
+  return needs;
+}
+
 std::map<std::string, std::int64_t> job_figures(Database& db) {
   std::map<std::string, std::int64_t> jobs;
   for (const std::string& state : wire::words(*v1::JobState_descriptor())) jobs[state] = 0;
@@ -67,6 +74,7 @@ StoreFigures Store::figures() {
   StoreFigures figures = read([this](Database& db) {
     StoreFigures read;
     read.queue = queue_figures(db, clock_.wall_ms());
+    read.needs = need_figures(db);
     read.jobs = job_figures(db);
     read.leases = lease_figures(db);
     read.requests =

@@ -93,6 +93,30 @@ TEST_F(ServerMetricsTest, TellTheQueueByPriority) {
   EXPECT_EQ(value_of(seen, "affskel_worker_threads"), 1);
 }
 
+TEST_F(ServerMetricsTest, TellTasksThatNoWorkerHasTheMemoryFor) {
+  v1::SubmitJobHeader header = submit_header("OFF a");
+  header.mutable_params()->mutable_sampling()->set_target_points(std::uint64_t{1} << 31);
+  v1::SubmitJobResponse response;
+  ASSERT_TRUE(submit_mesh(*client_, header, "OFF a", &response).ok());
+  EXPECT_EQ(value_of(scrape(), "affskel_queue_too_large_tasks"), 0) << "nobody is there";
+  const auto come = [&](const std::string& worker, std::uint64_t memory) {
+    v1::LeaseTaskRequest request;
+    *request.mutable_worker() = worker_identity(worker);
+    request.mutable_worker()->set_memory(memory);
+    grpc::ClientContext context;
+    v1::LeaseTaskResponse answer;
+    EXPECT_TRUE(worker_->LeaseTask(&context, request, &answer).ok());
+    return answer.has_lease();
+  };
+  EXPECT_FALSE(come("worker-a", std::uint64_t{1} << 30));
+  EXPECT_EQ(value_of(scrape(), "affskel_queue_too_large_tasks"), 1);
+  header = submit_header("OFF b");
+  ASSERT_TRUE(submit_mesh(*client_, header, "OFF b", &response).ok());
+  EXPECT_EQ(value_of(scrape(), "affskel_queue_too_large_tasks"), 1) << "that one is small";
+  EXPECT_TRUE(come("worker-b", std::uint64_t{1} << 40));
+  EXPECT_EQ(value_of(scrape(), "affskel_queue_too_large_tasks"), 0);
+}
+
 TEST_F(ServerMetricsTest, CountRefusalsAndFencedLeases) {
   grpc::ClientContext context;
   v1::GetJobRequest request;
