@@ -86,7 +86,7 @@ void add_repair(CommandLine& line) {
       [options](Context& context) { run_repair(context, *options); });
   command
       ->add_option("FILE", options->file,
-                   mesh_kinds() + "; for a wrap points, too (.xyz, .ply).\n- reads it from stdin")
+                   mesh_kinds() + "; for a wrap points, too (.xyz, .csv, .ply).\n- reads it from stdin")
       ->required()
       ->type_name("");
   add_repair_option(command, options->how,

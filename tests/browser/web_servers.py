@@ -65,7 +65,8 @@ class Away:
 
     def close(self):
         code = self.service.close()
-        self.go()
+        if self.server.returncode is None:
+            self.go()
         self.directory.cleanup()
         return code
 
