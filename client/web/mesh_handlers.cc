@@ -162,10 +162,10 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   try {
     input = read_input(call.upload->path().string(), reading_of(call, context));
-    if (!input.told.empty()) {
-      steps.push_back({{"severity", "note"}, {"code", "isosurface"}, {"message", input.told}});
-      replace_upload(call, OffText(input).view());
-    }
+    for (const Notice& told : conversion_notices(input))
+      if (told.code != "CONVERTED" && told.code != "UNPACKED")
+        steps.push_back({{"severity", "note"}, {"code", told.code}, {"message", told.message}});
+    if (!input.told.empty()) replace_upload(call, OffText(input).view());
     if (!call.request.parameter("repair").empty()) {
       source = replace_by_repaired(call, name, input, &context);
       for (const core::RepairStep& step : source.steps)

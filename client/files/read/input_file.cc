@@ -108,12 +108,13 @@ Notices conversion_notices(const InputFile& input) {
     notices.push_back(note("UNPACKED", "unpacked by " + input.packed, input.path));
   }
   if (!input.told.empty()) notices.push_back(note("ISOSURFACE", input.told, input.path));
+  if (!input.off.unit.empty())
+    notices.push_back(note("UNIT", "lengths are in the file's unit, the " + input.off.unit, input.path));
   if (!input.off_text) {
-    const std::string unit = input.off.unit.empty() ? "" : " with lengths in its unit, the " + input.off.unit;
     notices.push_back(note("CONVERTED",
                            "read as " + input.format + ", " + std::to_string(input.off.mesh.points.size()) +
                                " vertices and " + std::to_string(input.off.mesh.triangles.size()) +
-                               " triangles" + unit + "; what is sent is OFF text, which fetch mesh gives",
+                               " triangles; what is sent is OFF text, which fetch mesh gives",
                            input.path));
   }
   return notices;

@@ -67,7 +67,7 @@ std::string passed_over_text(const core::OffMesh& off);
 /// next to nothing.
 std::string uneven_text(const core::OffMesh& off, double volume);
 
-/// That the file is not what is submitted, and what of it was passed over.
+/// That the file is not what is submitted (CONVERTED, UNPACKED), and what of it was passed over or is to be known.
 Notices conversion_notices(const InputFile& input);
 
 /// The notes of the solid: repairs as notes, oddities as warnings.

@@ -151,6 +151,14 @@ TEST_F(WebServiceTest, TellsWhatAMeshIs) {
   EXPECT_TRUE(picture.body.starts_with("\x89PNG"));
 }
 
+TEST_F(WebServiceTest, TellsWhatOfAFileIsLeftOut) {
+  sign_in();
+  const json mesh =
+      uploaded("a.obj", "vn 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  ASSERT_EQ(mesh["facts"]["notes"].size(), 1U) << mesh;
+  EXPECT_EQ(mesh["facts"]["notes"][0]["message"], "passed over 1 row of vn (normals)");
+}
+
 TEST_F(WebServiceTest, ComputesNothingForWhoHasGone) {
   sign_in();
   const std::string mesh = uploaded("cube.off", mesh_)["mesh"];
@@ -185,7 +193,7 @@ TEST_F(WebServiceTest, TakesImagesOfVoxels) {
   EXPECT_NE(ask("POST", "/api/meshes?name=a.stl", "").object()["error"].get<std::string>().find("empty"),
             std::string::npos);
   const json mesh = ask("POST", "/api/meshes?name=ct.nrrd&isovalue=100", image).object();
-  EXPECT_EQ(mesh["facts"]["notes"][0]["code"], "isosurface");
+  EXPECT_EQ(mesh["facts"]["notes"][0]["code"], "ISOSURFACE");
   EXPECT_NEAR(mesh["facts"]["volume"].get<double>() / 64e6, 1, 0.1);
   ask("POST", "/api/jobs", json{{"mesh", mesh["mesh"]}, {"spacing", 50}, {"name", "ct"}}.dump());
   EXPECT_EQ(service_.mesh.substr(0, 4), "OFF\n");
