@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "client/operations/fetch.h"
 #include "client/text/message_json.h"

@@ -6,7 +6,6 @@
 #include "store/givers.h"
 #include "store/job_life.h"
 #include "store/refinement.h"
-#include "store/space.h"
 #include "store/store_impl.h"
 #include "store/task_leases.h"
 #include "store/task_rows.h"
