@@ -39,23 +39,70 @@ base::NumberKind nrrd_kind(const VoxelHeader& header) {
   fail_at(header.line("type"), "unknown type of values '" + header.word("type") + "'");
 }
 
-// Of the image's axes, the first of the three in space: before it there may be that of the values at a place, a single one.
-std::size_t first_in_space(const std::vector<double>& sizes) {
-  return sizes.size() == 4 && sizes[0] == 1 && sizes[3] != 1 ? 1 : 0;
+// Sizes along the axes in space, and the steps along these.
+struct Space {
+  std::vector<double> sizes;
+  std::vector<Vec3> steps;
+};
+
+// Of each axis the step, or none where it is of the values at a place.
+std::vector<std::optional<Vec3>> directions_of(const VoxelHeader& header) {
+  constexpr const char* kName = "space directions";
+  const std::vector<std::string> words = header.words(kName);
+  const std::uint64_t line = header.line(kName);
+  std::vector<std::optional<Vec3>> found;
+  for (std::size_t i = 0; i < words.size(); i += found.back() ? 3 : 1) {
+    const auto number = [&](std::size_t k) { return parse_finite(words[i + k], line, kName); };
+    if (words[i] == "none") {
+      found.emplace_back();
+    } else if (words.size() - i >= 3) {
+      found.emplace_back(Vec3{number(0), number(1), number(2)});
+    } else {
+      fail_at(line, "space directions ends within a vector");
+    }
+  }
+  return found;
 }
 
-// @param axes of the image. @param first of the three in space.
-AffineMap nrrd_place(const VoxelHeader& header, std::size_t axes, std::size_t first) {
-  const std::vector<double> origin =
-      header.has("space origin") ? header.numbers("space origin", 3) : std::vector<double>(3, 0);
-  const Vec3 shift{origin[0], origin[1], origin[2]};
-  if (header.has("space directions")) {
-    const auto d = header.numbers("space directions", 9);
-    return place_of({{d[0], d[1], d[2]}, {d[3], d[4], d[5]}, {d[6], d[7], d[8]}}, shift);
+// What has no direction is no axis in space, and has one item.
+Space space_by_directions(const VoxelHeader& header, const std::vector<double>& sizes) {
+  const std::vector<std::optional<Vec3>> directions = directions_of(header);
+  const std::uint64_t line = header.line("space directions");
+  if (directions.size() != sizes.size()) {
+    sizes_of(sizes, header.line("sizes"));  // which may be what is wrong
+    fail_at(line, "space directions needs a vector or none for each of the " + std::to_string(sizes.size()) +
+                      " axes");
   }
+  Space space;
+  for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
+    if (directions[axis]) {
+      space.sizes.push_back(sizes[axis]);
+      space.steps.push_back(*directions[axis]);
+    } else if (sizes[axis] != 1) {
+      fail_at(header.line("sizes"), "the image has more than one value at a place");
+    }
+  }
+  if (space.steps.size() != 3) fail_at(line, "space directions needs three vectors");
+  return space;
+}
+
+// Without directions the sizes tell: before the axes in space there may be that of the values at a place, a single one.
+Space space_by_sizes(const VoxelHeader& header, std::vector<double> sizes) {
+  const std::size_t axes = sizes.size(), first = axes == 4 && sizes[0] == 1 && sizes[3] != 1 ? 1 : 0;
+  sizes.erase(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(first));
   const auto s =
       header.has("spacings") ? header.three_numbers("spacings", axes, first) : std::vector<double>(3, 1);
-  return place_of({{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}}, shift);
+  return {std::move(sizes), {{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}}};
+}
+
+void take_space(const VoxelHeader& header, VoxelImage& image) {
+  const std::vector<double> sizes = header.numbers("sizes");
+  const bool directed = header.has("space directions");
+  const Space space = directed ? space_by_directions(header, sizes) : space_by_sizes(header, sizes);
+  image.size = sizes_of(space.sizes, header.line("sizes"));
+  const std::vector<double> origin =
+      header.has("space origin") ? header.numbers("space origin", 3) : std::vector<double>(3, 0);
+  image.place = place_of(space.steps, {origin[0], origin[1], origin[2]});
 }
 
 // Whether the numbers are the last bytes, whatever is before them.
@@ -91,11 +138,7 @@ VoxelImage parse_nrrd(std::string_view bytes, const ReadBeside& beside) {
   for (const char* name : {"data file", "datafile"})
     if (header.has(name)) other = read_numbers_beside(header.word(name), header.line(name), beside);
   VoxelImage image;
-  std::vector<double> sizes = header.numbers("sizes");
-  const std::size_t axes = sizes.size(), first = first_in_space(sizes);
-  sizes.erase(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(first));
-  image.size = sizes_of(sizes, header.line("sizes"));
-  image.place = nrrd_place(header, axes, first);
+  take_space(header, image);
   const std::size_t count = voxels_of(image.size);
   const base::NumberKind kind = nrrd_kind(header);
   const bool big = base::lower_case(header.word("endian")) == "big";

@@ -32,8 +32,7 @@ std::vector<std::string> VoxelHeader::words(const char* name) const {
 
 std::vector<double> VoxelHeader::numbers(const char* name) const {
   std::vector<double> found;
-  for (const std::string& one : words(name))
-    if (one != "none") found.push_back(parse_finite(one, line(name), name));
+  for (const std::string& one : words(name)) found.push_back(parse_finite(one, line(name), name));
   return found;
 }
 

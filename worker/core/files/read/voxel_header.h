@@ -16,7 +16,9 @@ class VoxelHeader {
   bool has(const char* name) const { return fields_.contains(name); }
   std::string word(const char* name, const char* usual = "") const;
   std::uint64_t line(const char* name) const;  ///< 0 where there is no such field
-  /// All numbers of a field; parentheses and commas part them, too, and the word none stands for no number.
+  /// All words of a field; parentheses and commas part them, too.
+  std::vector<std::string> words(const char* name) const;
+  /// These as numbers.
   /// @throws CoreError kBadInput with the line.
   std::vector<double> numbers(const char* name) const;
   std::vector<double> numbers(const char* name, std::size_t count) const;
@@ -25,8 +27,6 @@ class VoxelHeader {
   std::vector<double> three_numbers(const char* name, std::size_t axes, std::size_t first = 0) const;
 
  private:
-  std::vector<std::string> words(const char* name) const;
-
   struct Field {
     std::string value;
     std::uint64_t line;

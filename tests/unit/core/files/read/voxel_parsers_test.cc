@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/coding.h"
@@ -97,6 +98,33 @@ TEST(ParseVoxels, OfAFirstAxisOfOneItem) {
   EXPECT_EQ(spaced.place({1, 1, 1}), (Vec3{2, 3, 4}));
   const VoxelImage turned = parse_voxels(begin + "space directions: none (0,2,0) (3,0,0) (0,0,4)\n" + end);
   EXPECT_EQ(turned.place({1, 0, 0}), (Vec3{0, 2, 0}));
+}
+
+// Where an image has directions, the axis without one is that of the values at a place, wherever it stands.
+TEST(ParseVoxels, TheAxisWithoutADirectionIsOfOneItem) {
+  const std::string data = bytes_of<float>(false).substr(0, 12 * sizeof(float));
+  const auto image = [&](const std::string& sizes, const std::string& directions) {
+    return "NRRD0004\ntype: float\ndimension: 4\nsizes: " + sizes + "\nspace directions: " + directions +
+           "\nencoding: raw\n\n" + data;
+  };
+  const std::string three = "(0,2,0) (3,0,0) (0,0,4)";
+  for (const auto& [sizes, directions] : {std::pair("1 3 4 1", "none " + three),
+                                          {"3 4 1 1", three + " none"},
+                                          {"3 4 1 1", "(0,2,0) (3,0,0) none (0,0,4)"}}) {
+    const VoxelImage read = parse_voxels(image(sizes, directions));
+    EXPECT_EQ(read.size, (std::array<std::size_t, 3>{3, 4, 1})) << sizes;
+    EXPECT_EQ(read.place({1, 0, 0}), (Vec3{0, 2, 0})) << directions;
+  }
+  EXPECT_NE(image_refusal(image("3 4 1 1", "none " + three)).find("more than one value at a place"),
+            std::string::npos);
+  EXPECT_NE(image_refusal(image("3 4 1 1", three)).find("for each of the 4 axes"), std::string::npos);
+  EXPECT_NE(image_refusal(image("3 4 1 1", "none none (0,2,0) (3,0,0)")), "");
+  EXPECT_NE(image_refusal(image("3 4 1 1", three + " none 1")), "");
+  EXPECT_NE(image_refusal(image("none 3 4 1", three)), "");
+  EXPECT_NE(image_refusal("ObjectType = Image\nNDims = 3\nDimSize = none 3 4 1\nElementType = MET_FLOAT\n"
+                          "ElementDataFile = LOCAL\n" +
+                          data),
+            "");
 }
 
 // A fourth axis of one item has a size, a spacing, which may be no number, and a row and a column of the matrix.
