@@ -123,7 +123,7 @@ export class NewJob {
       let mesh = await this.sentFile(file);
       if (!mesh.mesh) mesh = await this.sentFile(file, { repair: 'auto' });
       if (!mesh.mesh) throw new Error(mesh.error);
-      const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: jobName(file.name) });
+      const answer = await call('POST', '/api/jobs', { mesh: mesh.mesh, points: kUsualPoints, name: jobName(mesh.name) });
       return [h('a', { href: `#job/${answer.id}` }, answer.name), answer.existed ? ' was there already' : ' is submitted'];
     } catch (error) {
       return [h('span', { class: 'error' }, `${file.name}: ${error.message}`)];
