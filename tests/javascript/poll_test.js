@@ -1,7 +1,7 @@
 // poll.js: an answer that comes after a newer question is not shown.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { call } from '../../client/web/page/api.js';
+import { ApiError, call, isAway } from '../../client/web/page/api.js';
 import { Poll } from '../../client/web/page/poll.js';
 import { installDocument } from './fake_document.js';
 
@@ -68,4 +68,10 @@ test('a failure is told, and that it is over', async () => {
   await poll.now();
   poll.stop();
   assert.deepEqual(told, ['no answer', null]);
+});
+
+test('only a server that is away comes back by itself', () => {
+  const away = (status) => isAway(new ApiError(status, 'X', 'x'));
+  assert.deepEqual([0, 401, 403, 429, 500, 502, 503, 504, 507].filter(away), [0, 502, 503, 504]);
+  assert.equal(isAway(new TypeError('of the page itself')), false);
 });

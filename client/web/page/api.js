@@ -18,6 +18,12 @@ export class ApiError extends Error {
  */
 export const isGone = (error) => error?.status === 404 || error?.status === 400;
 
+/**
+ * Whether the service, or the server behind it, is not there: the same call may be answered later.
+ * @param {any} error
+ */
+export const isAway = (error) => [0, 502, 503, 504].includes(error?.status);
+
 const kNoAnswer = 'The page gets no answer. Has affskel-client web been ended, or is the network down?';
 
 function errorOf(status, text) {

@@ -1,5 +1,5 @@
 // The page: what is shown follows the address behind '#'.
-import { isGone } from './api.js';
+import { isAway, isGone } from './api.js';
 import { showProblem } from './dialogs.js';
 import { byId, button } from './elements.js';
 import { JobView } from './job.js';
@@ -94,7 +94,7 @@ async function openPatiently() {
     try {
       return await openSession();
     } catch (error) {
-      if (error.status > 0 && error.status < 500) throw error;
+      if (!isAway(error)) throw error;
       showProblem(`${error.message} Trying again …`);
     }
     await new Promise((resolve) => setTimeout(resolve, pauseAfter(tries)));
