@@ -95,7 +95,7 @@ std::string passed_over_text(const core::OffMesh& off) {
     const auto known = std::find_if(kMeanings.begin(), kMeanings.end(),
                                     [&](const auto& meaning) { return meaning.first == one.word; });
     const std::string meaning = known == kMeanings.end() ? "" : " (" + std::string(known->second) + ")";
-    text += (text.empty() ? "" : ", ") + base::counted(one.rows, "row") + " of " + one.word + meaning;
+    text += (text.empty() ? "" : ", ") + base::counted(one.rows, one.each) + " of " + one.word + meaning;
   }
   return text;
 }

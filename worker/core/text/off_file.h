@@ -12,11 +12,12 @@
 
 namespace affskel::core {
 
-/// Rows of a file that were passed over: all that begin with the same word.
+/// Rows of a file that were passed over, all that begin with the same word, or other things of one kind.
 struct PassedOver {
   std::string word;
   std::uint64_t rows = 0;
   std::uint64_t first_line = 0;  ///< counted from 1; 0 = the file has no lines
+  const char* each = "row";      ///< what is counted: "1 row of vn", "2 objects of type support"
 };
 
 /// A mesh with the lines it came from, so that later messages can name the place.

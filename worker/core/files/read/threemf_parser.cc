@@ -109,9 +109,9 @@ class Model final : public XmlHandler {
     for (const auto& [id, object] : objects_)
       held_ += std::max(object.mesh.points.size(), object.mesh.triangles.size());
     for (const Component& item : built_) add(item, AffineMap(), 0, file.off.mesh);
-    if (file.off.mesh.triangles.empty() && !besides_.empty())
+    if (parts_ == 0 && !besides_.empty())
       fail_at(besides_.front().first_line,
-              "places only " + besides_.front().word + ", which are no part of a solid");
+              "places only objects of " + besides_.front().word + ", which are no part of a solid");
     file.off.passed_over = std::move(besides_);
     file.off.polygons = file.off.mesh.triangles.size();
     return file;
@@ -135,13 +135,13 @@ class Model final : public XmlHandler {
     if (std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end()) unit_ = unit;
   }
   void pass_over(const std::string& type, std::uint64_t line) {
-    const std::string word = "objects of type " + type;
+    const std::string word = "type " + type;
     const auto known = std::find_if(besides_.begin(), besides_.end(),
                                     [&](const PassedOver& one) { return one.word == word; });
     if (known != besides_.end()) {
       ++known->rows;
     } else {
-      besides_.push_back({word, 1, line});
+      besides_.push_back({word, 1, line, "object"});
     }
   }
   // By an attribute of the extension for production.
@@ -181,6 +181,7 @@ class Model final : public XmlHandler {
       pass_over(type, component.line);
       return;
     }
+    if (found->second.components.empty()) ++parts_;
     const auto first = static_cast<std::uint32_t>(whole.points.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       whole.points.push_back(map(mesh.points[i]));
@@ -202,6 +203,7 @@ class Model final : public XmlHandler {
   std::vector<PassedOver> besides_;
   std::string unit_;
   std::uint64_t placed_ = 0, held_ = 0;
+  std::uint64_t parts_ = 0;  // meshes that are placed and not left out
 };
 
 // The archive's text of a name; empty when there is none.

@@ -266,6 +266,13 @@ TEST(ReadNamedInput, TakesTheNumbersOfAnImageFromAFileBesideItsHeader) {
   EXPECT_EQ(exit_of([&] { read_input(header, options); }), ExitCode::kBadInput);
 }
 
+TEST(PassedOverText, CountsRowsAndObjects) {
+  core::OffMesh off;
+  off.passed_over = {{"vn", 1, 3}, {"type support", 2, 5, "object"}, {"type other", 1, 7, "object"}};
+  EXPECT_EQ(passed_over_text(off),
+            "1 row of vn (normals), 2 objects of type support, 1 object of type other");
+}
+
 TEST(ReadNamedInput, TellsThatAnImageOfOneValueHasNoSurface) {
   const tests::TemporaryDirectory dir;
   const std::string image = dir / "full.nrrd";

@@ -263,10 +263,15 @@ TEST(MeshFormats, ThreemfLeavesOutWhatIsNoPartOfTheSolid) {
               "<item objectid=\"2\"/><item objectid=\"3\"/><item objectid=\"4\"/><item objectid=\"5\"/>"));
   expect_box(built, "3mf");
   ASSERT_EQ(built.off.passed_over.size(), 3U);
-  EXPECT_EQ(built.off.passed_over[0].word, "objects of type support");
+  EXPECT_EQ(built.off.passed_over[0].word, "type support");
+  EXPECT_STREQ(built.off.passed_over[0].each, "object");
   EXPECT_EQ(built.off.passed_over[0].rows, 2U);
   EXPECT_NE(refusal(threemf(objects, "<item objectid=\"2\"/>")).find("only objects of type support"),
             std::string::npos);
+  const std::string with_empty = objects + object_text({}, "6"),
+                    items = "<item objectid=\"2\"/><item objectid=\"6\"/>";
+  EXPECT_EQ(refusal(threemf(with_empty, items)).find("only"), std::string::npos)
+      << "a part of the solid, too";
 }
 
 TEST(MeshFormats, ThreemfNamesAPlaceThatIsNotFinite) {
