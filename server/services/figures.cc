@@ -84,7 +84,10 @@ void add_too_large(Gauges& gauges, const StoreFigures& figures,
   std::int64_t tasks = 0;
   for (const auto& [need, waiting] : figures.needs)
     if (!workers.empty() && static_cast<std::uint64_t>(need) > most) tasks += waiting;
-  gauges.metric("affskel_queue_too_large_tasks", "Tasks that wait for more memory than any worker has")
+  gauges
+      .metric(
+          "affskel_queue_too_large_tasks",
+          "Tasks that wait for more memory than any of the workers that are there has; 0 while there is none")
       .value(number(tasks));
 }
 
