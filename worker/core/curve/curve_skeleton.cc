@@ -14,6 +14,7 @@
 #include "core/contour/edge_cells.h"
 #include "core/curve/centre_lines.h"
 #include "core/curve/hanging_patches.h"
+#include "core/curve/hub_stars.h"
 #include "core/curve/joined_links.h"
 #include "core/curve/limb_forks.h"
 #include "core/curve/limb_hubs.h"
@@ -24,10 +25,10 @@
 #include "core/curve/line_ends.h"
 #include "core/curve/pruned_lines.h"
 #include "core/curve/sheet_lines.h"
+#include "core/curve/sliced_lines.h"
 #include "core/curve/volume_beyond.h"
 #include "core/curve/zipped_lines.h"
 #include "core/lattice/lattice_coordinates.h"
-#include "core/lattice/lattice_points.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
 #include "core/spatial/distance_to_mesh.h"
@@ -201,24 +202,6 @@ void move_to_middle(const LimbSurface& surface, const Lattice& lattice, const Li
   for (std::uint32_t v = 0; v < lines.size(); ++v) curve.vertices[v].position = places[v];
 }
 
-// The line has moved since: each point goes on along it to the vertex that is nearest now, as far as that comes nearer.
-std::uint32_t moved(std::span<const Vec3> places, const Adjacency& beside, const Vec3& at,
-                    std::uint32_t nearest) {
-  double least = norm(places[nearest] - at);
-  for (bool moves = true; moves;) {
-    moves = false;
-    for (const std::uint32_t to : beside[nearest]) {
-      const double way = norm(places[to] - at);
-      if (way >= least) continue;
-      least = way;
-      nearest = to;
-      moves = true;
-      break;
-    }
-  }
-  return nearest;
-}
-
 void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
   const DistanceToMesh surface(solid.mesh);
   const auto distance = [&](const Vec3& position) {
@@ -229,17 +212,18 @@ void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& c
 }
 
 // Of sections across lines, which have their directions by what lies in balls about the vertices.
-std::vector<double> areas_of(const LimbSections& sections, std::span<const Vec3> places,
-                             std::span<const double> balls,
-                             std::span<const std::vector<std::uint32_t>> lines) {
-  std::vector<double> areas(places.size(), 0);
+// @param size_of (place, unit normal, ball)
+template <class SizeOf>
+std::vector<double> section_sizes(std::span<const Vec3> places, std::span<const double> balls,
+                                  std::span<const std::vector<std::uint32_t>> lines, const SizeOf& size_of) {
+  std::vector<double> sizes(places.size(), 0);
   for (const auto& line : lines) {
     for (std::size_t n = 0; n < line.size(); ++n) {
       const Vec3 across = direction_in_ball(places, line, n, balls[line[n]]);
-      if (across != Vec3{}) areas[line[n]] = sections.area(places[line[n]], across);
+      if (across != Vec3{}) sizes[line[n]] = size_of(places[line[n]], across, balls[line[n]]);
     }
   }
-  return areas;
+  return sizes;
 }
 
 std::vector<char> vertices_in_joints(std::span<const Vec3> places,
@@ -266,44 +250,82 @@ void find_radii(const Solid& solid, const Lattice& lattice, std::span<const std:
   for (double& ball : balls) ball /= solid.scale();
   const double volume = solid.scaled(solid.volume);
   const std::vector<double> tube = slice_radii({places, lines, curve.slice, balls, volume});
-  const std::vector<double> area = areas_of(LimbSections(solid.mesh), places, balls, lines);
+  const LimbSections sections(solid.mesh);
+  const std::vector<double> area =
+      section_sizes(places, balls, lines,
+                    [&](const Vec3& at, const Vec3& across, double) { return sections.area(at, across); });
   curve.radius = limb_radii({lines, curve.share, curve.slice, tube, area, in_joint, volume});
   for (double& radius : curve.radius) radius *= solid.scale();
 }
 
-void measure(const Solid& solid, const Lattice& lattice, const LimbSurface& surface, CurveSkeleton& curve,
-             ExecutionContext* context) {
-  give_the_rest(lattice, curve);
-  const std::vector<Vec3> places = positions(curve);
-  std::vector<double> balls;
-  for (const Vec3& place : places) balls.push_back(surface.thickness(place));
-  const Adjacency beside = neighbours(places.size(), curve.segments);
-  const double one = 1 / static_cast<double>(lattice.points);
-  const auto for_each = [&](const auto& vertex_of) {  // what a point has, by what it had
-    StopCheck stop(context);
-    std::vector<double> share(places.size(), 0);
-    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-      stop.did(10);
-      std::uint32_t& vertex = curve.nearest[rank];
-      vertex = vertex_of(lattice.spacing * Vec3{double(i), double(j), double(k)}, vertex);
-      share[vertex] += one;
-    });
-    return share;
+// Points of lines that are gone go to the nearest vertex of what is drawn there: along it they might go the wrong way.
+void give_to_stars(const Lattice& lattice, const LimbHubs& hubs, std::span<const std::uint32_t> number,
+                   CurveSkeleton& curve, ExecutionContext* context) {
+  std::vector<std::vector<std::uint32_t>> own(hubs.hubs.size());
+  for (std::uint32_t v = 0; v < hubs.of.size(); ++v)
+    if (hubs.of[v] != kNone) own[hubs.of[v]].push_back(v);
+  std::vector<PointIndex> indices;
+  for (auto& vertices : own) {
+    for (const auto& [a, b] : curve.segments)  // and where its limbs begin
+      for (const auto& [in, out] : {std::pair(a, b), std::pair(b, a)})
+        if (hubs.at(in) == &hubs.hubs[indices.size()] && hubs.of[out] == kNone) vertices.push_back(out);
+    std::vector<Vec3> places;
+    for (const std::uint32_t v : vertices) places.push_back(curve.vertices[v].position);
+    indices.emplace_back(places);
+  }
+  const auto nearest_of = [&](const Vec3& at, std::uint32_t before) {
+    const std::uint32_t vertex = number[before], hub = hubs.of[vertex];
+    if (hub == kNone || hubs.hubs[hub].joint != vertex) return vertex;
+    return own[hub][indices[hub].find(at).number];
   };
-  curve.slice =
-      for_each([&](const Vec3& at, std::uint32_t nearest) { return moved(places, beside, at, nearest); });
-  const auto lines = polylines(places.size(), curve.segments);
-  const std::vector<double> radius = slice_radii({places, lines, curve.slice, balls, solid.volume});
-  LimbHubs hubs = limb_hubs({places, lines, radius, lattice, curve.nearest, context});
-  const auto forks = limb_forks(places, lines, surface.sections, lattice.spacing);
+  given_anew(lattice, nearest_of, curve.vertices.size(), curve.nearest, context);
+}
+
+// Limbs, and the bodies that they hang on.
+struct LimbsAndHubs {
+  SlicedLines limbs;
+  LimbHubs hubs = {};
+};
+
+// Draws lines anew in flat bodies.
+LimbsAndHubs with_hubs(const Solid& solid, const Lattice& lattice, const LimbSurface& surface,
+                       CurveSkeleton& curve, ExecutionContext* context) {
+  give_the_rest(lattice, curve);
+  const auto slice = [&] { return sliced_lines({solid, lattice, surface, curve, context}, curve.nearest); };
+  LimbsAndHubs found{slice()};
+  const auto& [places, balls, slices, radius, lines] = found.limbs;
+  const std::vector<double> section =
+      section_sizes(places, balls, lines, [&](const Vec3& at, const Vec3& across, double ball) {
+        return surface.sections.at(at, across, ball).radius;
+      });
+  found.hubs = limb_hubs({places, lines, radius, section, lattice, curve.nearest, context});
+  const auto number = draw_hub_stars(surface, lattice.spacing, found.hubs, curve);
+  if (number.empty()) return found;
+  give_to_stars(lattice, found.hubs, number, curve, context);
+  found.limbs = slice();
+  return found;
+}
+
+void measure(const Solid& solid, const Lattice& lattice, const LimbSurface& surface, LimbsAndHubs found,
+             CurveSkeleton& curve, ExecutionContext* context) {
+  const auto& [places, balls, slices, radius, lines] = found.limbs;
+  curve.slice = slices;
+  std::vector<char> is_hubs(places.size(), 0);
+  for (std::size_t v = 0; v < places.size(); ++v) is_hubs[v] = found.hubs.of[v] != kNone;
+  const auto forks = limb_forks(places, lines, surface.sections, lattice.spacing, is_hubs);
   const auto ellipse_at = [&](const Vec3& place, const Vec3& u, const Vec3& v, double ball) {
     return surface.sections.ellipse(place, u, v, ball);
   };
-  curve.share = for_each(limb_tubes({places, lines, balls, radius, forks, std::move(hubs), ellipse_at}));
+  const auto owner_of = limb_tubes({places, lines, balls, radius, forks, std::move(found.hubs), ellipse_at});
+  curve.share = given_anew(lattice, owner_of, places.size(), curve.nearest, context);
   curve.beyond = volume_beyond(curve.segments, curve.share);
-  find_radii(solid, lattice, lines, vertices_in_joints(places, lines, forks), curve);
+  find_distances(solid, lattice, curve);
+  std::vector<char> in_joint = vertices_in_joints(places, lines, forks);
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (is_hubs[v]) in_joint[v] = 1;
+  find_radii(solid, lattice, lines, in_joint, curve);
   curve.branches = static_cast<std::uint32_t>(lines.size());
-  for (std::size_t v = 0; v < beside.size(); ++v) curve.ends += beside[v].size() == 1;
+  for (const std::uint32_t ends : ends_of(places.size(), lines)) curve.ends += ends == 1;
 }
 
 // The lines in their places, and which vertices of the ridge theirs are.
@@ -342,7 +364,11 @@ Drawn drawn(const LimbSurface& surface, const Lattice& lattice, const RidgeBasis
 
 SheetMesh curve_lines(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
                       const RidgeSheet& ridge, const CurveOptions& options) {
-  return drawn(LimbSurface(surface_in_frame(solid, lattice)), lattice, basis, ridge, options).curve;
+  const LimbSurface surface(surface_in_frame(solid, lattice));
+  auto [curve, lines] = drawn(surface, lattice, basis, ridge, options);
+  give_points(basis, ridge, lines, curve, options.context);
+  with_hubs(solid, lattice, surface, curve, options.context);
+  return std::move(curve);
 }
 
 CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
@@ -350,8 +376,8 @@ CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const R
   const LimbSurface surface(surface_in_frame(solid, lattice));
   auto [curve, lines] = drawn(surface, lattice, basis, ridge, options);
   give_points(basis, ridge, lines, curve, options.context);
-  find_distances(solid, lattice, curve);
-  measure(solid, lattice, surface, curve, options.context);
+  LimbsAndHubs found = with_hubs(solid, lattice, surface, curve, options.context);
+  measure(solid, lattice, surface, std::move(found), curve, options.context);
   return std::move(curve);
 }
 

@@ -44,8 +44,9 @@ struct CurveSkeleton : SheetMesh {
 /// The curve skeleton: the skeleton of `ridge`, collapsed on to the middle of its surfaces (see sheet_lines()),
 /// with a branch straight on to the tip of every limb that is long enough.  It has the pieces and tunnels of that
 /// skeleton, but for what noise bores where a surface crosses itself, see pruned_lines().  Lines are then made smooth
-/// without becoming shorter (Taubin, "A signal processing approach to fair surface design", 1995), within the solid.
-/// A vertex keeps the values of the place on the ridge that it comes from, as far as a few spacings away.
+/// without becoming shorter (Taubin, "A signal processing approach to fair surface design", 1995), within the solid;
+/// in flat bodies that limbs hang on they are drawn anew, see draw_hub_stars().  A vertex keeps the values of the place
+/// on the ridge that it comes from, as far as a few spacings away; one that is drawn anew has those of the nearest.
 /// @param lattice of this solid.
 /// @param basis of a field of this lattice, and `ridge` its skeleton.
 /// @throws CoreError kBadInput for a reach that is not finite or not above 0; kCancelled when the context asks to

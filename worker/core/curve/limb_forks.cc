@@ -39,11 +39,12 @@ double ahead(const Vec3& way, const Vec3& direction) {
 
 std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
                                               std::span<const std::vector<std::uint32_t>> lines,
-                                              const LimbSections& sections, double step) {
+                                              const LimbSections& sections, double step,
+                                              std::span<const char> left_out) {
   const std::vector<std::vector<LineEnd>> ends = line_ends(places.size(), lines);
   std::vector<std::vector<LimbFork>> forks(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
-    if (ends[v].size() < 3) continue;
+    if (ends[v].size() < 3 || (!left_out.empty() && left_out[v])) continue;
     std::vector<Walk> walks;
     for (const LineEnd& end : ends[v]) walks.push_back({places, lines[end.line], end.back});
     for (std::size_t a = 0; a < walks.size(); ++a)

@@ -26,10 +26,12 @@ double ahead(const Vec3& way, const Vec3& direction);
 
 /// @param lines see polylines(), by numbers in places.
 /// @param step along lines, > 0.
+/// @param left_out per vertex: whether there forks are not asked for, as in a hub of hundreds of limbs; or empty.
 /// @return per vertex: of the joint there; none of limbs that see each other all the way.
 std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
                                               std::span<const std::vector<std::uint32_t>> lines,
-                                              const LimbSections& sections, double step);
+                                              const LimbSections& sections, double step,
+                                              std::span<const char> left_out = {});
 
 /// How many vertices of a limb, from its joint on, have sections that reach into the others: they part from it no sooner.
 /// @param forks of the joint at this end.

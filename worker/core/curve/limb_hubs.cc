@@ -8,20 +8,28 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/median.h"
+#include "core/base/plain_math.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/lattice_points.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
 namespace {
 
-constexpr double kSudden = 0.4;   // of the way along a line: what a limb's radius grows by where it ends
-constexpr double kThick = 1.55;   // times as thick as all its limbs but the thickest
-constexpr double kThicker = 1.4;  // times as thick as the thickest
-constexpr double kGrown = 1.1;    // times the ellipsoid: what lies just outside is no limb's
-constexpr double kFilled = 0.45;  // of the ellipsoid with its moments: a network fills less
-constexpr double kPlate = 2;      // times as wide as thick: what is nearest to a line makes no tube
-constexpr double kBar = 3.5;      // times as long as wide: a limb, which grows where it turns a corner
+constexpr double kSudden = 0.4;    // of the way along a line: what a limb's radius grows by where it ends
+constexpr double kThick = 1.55;    // times as thick as all its limbs but the thickest
+constexpr double kThicker = 1.4;   // times as thick as the thickest
+constexpr double kGrown = 1.1;     // times the ellipsoid: what lies just outside is no limb's
+constexpr double kFilled = 0.74;   // of the ellipsoid with its moments: a network fills less
+constexpr double kAsFilled = 0.9;  // times what those that it joins fill of theirs
+constexpr double kTaken =
+    1.5;                      // times what has grown, with what of limbs that it would grow along lies in it
+constexpr double kPlate = 2;  // times as wide as thick: what is nearest to a line makes no tube
+constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
+constexpr double kBar = 2.25;    // times as long as wide: a limb, which grows where it turns a corner
+
+constexpr double kPerBall = 0.75 / std::numbers::pi;  // a ball's cubed radius, of its volume
 
 // Of places, each as much.
 struct HubMoments {
@@ -39,8 +47,10 @@ struct HubMoments {
 };
 
 struct HubLimb {
-  std::array<std::uint32_t, 2> ends;
+  std::vector<std::uint32_t> line;
   double size;
+  double length;
+  bool runs_out = false;  // a hub would grow along it to its end
 };
 
 class FindHubs {
@@ -48,19 +58,21 @@ class FindHubs {
   explicit FindHubs(const LimbHubsInput& input)
       : in_(input),
         ends_(ends_of(input.places.size(), input.lines)),
-        length_(input.places.size(), 0),
+        limb_(input.places.size(), kNone),
         is_body_(input.places.size(), 0),
+        is_tried_(input.places.size(), 0),
         bodies_(input.places.size()),
         moments_(input.places.size()),
+        stop_(input.context),
         result_{{}, std::vector<std::uint32_t>(input.places.size(), kNone)} {}
 
   LimbHubs run() {
-    StopCheck stop(in_.context);
-    each_point(stop, [&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
+    each_point([&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
     for (const auto& line : in_.lines) part(line);
-    join_what_touches(stop);
+    join_what_touches();
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (is_body_[v] && bodies_.find(v) == v) add_hub(v);
+    number_hubs();
     return std::move(result_);
   }
 
@@ -89,14 +101,18 @@ class FindHubs {
     return count > 0 ? std::sqrt(spread[0] / spread[1]) : 1;
   }
 
+  // Whether a size grows suddenly towards the front of a line, at its n-th vertex, over as much as it is beyond.
+  bool grows_at(const std::vector<std::uint32_t>& line, std::size_t n, std::span<const double> size) const {
+    double length = 0;
+    std::size_t k = n;
+    for (; k < line.size() / 2 && length < size[line[k]]; ++k) length += way(line[k], line[k + 1]);
+    return size[line[n]] - size[line[k]] > kSudden * length;
+  }
+
   // How many of a line's first vertices are no limb's; from its middle on, by what it grows over a radius.
   std::size_t before_limb(const std::vector<std::uint32_t>& line) const {
-    for (std::size_t n = line.size() / 2; n > 1; --n) {
-      double length = 0;
-      std::size_t k = n - 1;
-      for (; k < line.size() / 2 && length < in_.radius[line[k]]; ++k) length += way(line[k], line[k + 1]);
-      if (in_.radius[line[n - 1]] - in_.radius[line[k]] > kSudden * length) return n;
-    }
+    for (std::size_t n = line.size() / 2; n > 1; --n)
+      if (grows_at(line, n - 1, in_.radius)) return n;
     return 1;
   }
 
@@ -109,8 +125,8 @@ class FindHubs {
     if (is_link && (length < 2 * size || (a != b && flatness(line) > kPlate)))
       return give_body(line, line.size());
     for (const std::uint32_t v : line)
-      if (!is_joint(v)) length_[v] = length;
-    limbs_.push_back({{a, b}, size});
+      if (!is_joint(v)) limb_[v] = static_cast<std::uint32_t>(limbs_.size());
+    limbs_.push_back({line, size, length});
     for (int end = 0; end < 2; ++end, std::reverse(line.begin(), line.end()))
       if (is_joint(line[0])) give_body(line, before_limb(line));
   }
@@ -125,18 +141,18 @@ class FindHubs {
   double cell() const { return in_.lattice.spacing * in_.lattice.spacing / 12; }
 
   template <class Visit>
-  void each_point(StopCheck& stop, const Visit& visit) const {
+  void each_point(const Visit& visit) {
     for_each_point(in_.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-      stop.did(10);
+      stop_.did(10);
       visit(in_.lattice.spacing * Vec3{double(i), double(j), double(k)}, in_.nearest[rank]);
     });
   }
 
   // Bodies of points that follow each other in a row.
-  void join_what_touches(StopCheck& stop) {
+  void join_what_touches() {
     Vec3 last;
     std::uint32_t before = kNone;
-    each_point(stop, [&](const Vec3& at, std::uint32_t v) {
+    each_point([&](const Vec3& at, std::uint32_t v) {
       const bool is_next = before != kNone && norm(at - last) < 1.1 * in_.lattice.spacing;
       if (is_next && is_body_[v] && is_body_[before]) bodies_.unite(v, before);
       before = v;
@@ -144,79 +160,201 @@ class FindHubs {
     });
   }
 
+  // A hub as large as grows from a body, as far as no other has that.  Those that it joins are no longer there; where it is
+  // none with them, it grows beside them.  What held a body, and was none, is what would grow from that.
   void add_hub(std::uint32_t body) {
-    const auto number = static_cast<std::uint32_t>(result_.hubs.size());
-    LimbHub hub{kNone, {}};
-    HubMoments all;
     std::vector<std::uint32_t> own;
+    HubMoments all;
     for (std::uint32_t v = body; v < ends_.size(); ++v) {
       if (!is_body_[v] || bodies_.find(v) != body || result_.of[v] != kNone) continue;
       own.push_back(v);
       all.add(moments_[v]);
-      if (is_joint(v) && (hub.joint == kNone || in_.radius[v] > in_.radius[hub.joint])) hub.joint = v;
     }
-    if (hub.joint == kNone || !is_thick(body, all.count)) return;
-    for (const std::uint32_t v : own) result_.of[v] = number;
-    if (grow(number, all, hub))
-      result_.hubs.push_back(hub);
-    else
-      std::replace(result_.of.begin(), result_.of.end(), number, kNone);
+    const auto any = [&](const auto& is) { return std::any_of(own.begin(), own.end(), is); };
+    if (!(all.count > 0) || !any([&](std::uint32_t v) { return is_joint(v); }) ||
+        !any([&](std::uint32_t v) { return !is_tried_[v]; }))
+      return;
+    bool joins = true;
+    if (!grow_hub(own, all, joins) && !joins) grow_hub(own, all, joins);
   }
 
-  bool is_thick(std::uint32_t body, double count) {
+  // @param joins whether it may join others; false then where it has, and was none.
+  bool grow_hub(std::span<const std::uint32_t> own, const HubMoments& all, bool& joins) {
+    const std::vector<std::uint32_t> before = result_.of;
+    const auto number = static_cast<std::uint32_t>(result_.hubs.size());
+    for (HubLimb& limb : limbs_) limb.runs_out = false;
+    Growth growth{number, joins};
+    do {
+      result_.of = before;
+      for (const std::uint32_t v : own) result_.of[v] = number;
+      growth.all = all;
+    } while (!grow(growth));
+    if (is_hub(growth)) {
+      growth.hub.joint = joint_of(number, growth.hub.centre);
+      result_.hubs.push_back(growth.hub);
+      found_filled_.push_back(filled(growth));
+      return true;
+    }
+    joins = !growth.has_joined;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (result_.of[v] == number && joins) is_tried_[v] = 1;
+    result_.of = before;
+    return false;
+  }
+
+  // The one nearest to its middle.
+  std::uint32_t joint_of(std::uint32_t number, const Vec3& centre) const {
+    std::uint32_t joint = kNone;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+      if (result_.of[v] != number || !is_joint(v)) continue;
+      if (joint == kNone || norm(in_.places[v] - centre) < norm(in_.places[joint] - centre)) joint = v;
+    }
+    return joint;
+  }
+
+  // Without those that others have joined.
+  void number_hubs() {
+    std::vector<std::uint32_t> anew(result_.hubs.size(), kNone);
+    for (const std::uint32_t number : result_.of)
+      if (number != kNone) anew[number] = 0;
+    std::vector<LimbHub> hubs;
+    for (std::size_t n = 0; n < anew.size(); ++n) {
+      if (anew[n] == kNone) continue;
+      anew[n] = static_cast<std::uint32_t>(hubs.size());
+      hubs.push_back(result_.hubs[n]);
+    }
+    for (std::uint32_t& number : result_.of)
+      if (number != kNone) number = anew[number];
+    result_.hubs = std::move(hubs);
+  }
+
+  double volume_of(double count) const { return 12 * cell() * in_.lattice.spacing * count; }
+  double radius_of(double count) const {  // of a ball
+    return count > 0 ? cube_root(kPerBall * volume_of(count)) : 0;
+  }
+
+  // What grows, to a hub perhaps.
+  struct Growth {
+    std::uint32_t number;
+    bool joins;  // hubs that lie in it
+    HubMoments all = {};
+    LimbHub hub = {};
+    bool has_joined = false;
+    double least_filled = kFilled;  // of its ellipsoid
+  };
+
+  // Until it holds no more.
+  // @return false where it came to free ends of limbs that are longer than it is thick: it grew along these, as a palm
+  // along the forearm, and grows anew without.
+  bool grow(Growth& growth) {
+    bool runs_out = false;
+    for (bool grows = true; grows && !runs_out;) {
+      fit(growth.all, growth.hub);
+      grows = growth.joins && join(growth);
+      growth.has_joined = growth.has_joined || grows;
+      stop_.did(8 * ends_.size());
+      for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+        if (result_.of[v] != kNone || growth.hub.outside(in_.places[v]) >= 0) continue;
+        if (limb_[v] != kNone && limbs_[limb_[v]].runs_out) continue;
+        if (is_long_end(v, growth.all.count)) runs_out = limbs_[limb_[v]].runs_out = true;
+        result_.of[v] = growth.number;
+        growth.all.add(moments_[v]);
+        grows = true;
+      }
+    }
+    return !runs_out;
+  }
+
+  // Hubs that both hold the place between their middles are one where that fills its ellipsoid about as they do theirs, as
+  // the halves of a body, and not a head and a trunk.
+  bool join(Growth& growth) {
+    bool any = false;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+      const std::uint32_t other = result_.of[v];
+      if (other == kNone || other == growth.number) continue;
+      const LimbHub& found = result_.hubs[other];
+      const Vec3 between = 0.5 * (growth.hub.centre + found.centre);
+      if (growth.hub.outside(between) >= 0 || found.outside(between) >= 0) continue;
+      growth.least_filled = std::max(growth.least_filled, kAsFilled * found_filled_[other]);
+      result_.of[v] = growth.number;
+      growth.all.add(moments_[v]);
+      any = true;
+    }
+    return any;
+  }
+
+  bool is_long_end(std::uint32_t v, double count) const {
+    return ends_[v] == 1 && limb_[v] != kNone && limbs_[limb_[v]].length > 2 * radius_of(count);
+  }
+
+  // The middle of a ring or of what is bent lies outside the solid.  Parts it from its limbs, too.
+  bool is_hub(const Growth& growth) {
+    const LimbHub& hub = growth.hub;
+    return filled(growth) >= growth.least_filled && !is_bar(hub) &&
+           is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * hub.centre) && holds_no_limb(growth) &&
+           is_thick(growth);
+  }
+
+  // Parts limbs at the ellipsoid, where noise moves the place where their slices begin to grow, and then by their sections.
+  // @return false where one that is long lies within, whole.
+  bool holds_no_limb(const Growth& growth) {
+    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+      const bool is_outside = growth.hub.outside(in_.places[v]) >= 0;
+      if (is_outside && limb_[v] != kNone && result_.of[v] == growth.number) result_.of[v] = kNone;
+      if (is_outside || result_.of[v] != kNone) continue;
+      if (is_long_end(v, growth.all.count)) return false;
+      result_.of[v] = growth.number;
+    }
+    for (HubLimb& limb : limbs_)
+      for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
+        if (result_.of[limb.line[0]] == growth.number) part_by_sections(limb.line, growth.number);
+    return true;
+  }
+
+  // With what its limbs leave it.  One that has much of limbs along which it did not grow is a part of these.
+  bool is_thick(const Growth& growth) const {
+    const auto is_hubs = [&](std::uint32_t v) { return result_.of[v] == growth.number; };
+    double count = 0;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (is_hubs(v)) count += moments_[v].count;
     std::array<double, 2> thickest{};
     for (const HubLimb& limb : limbs_) {
-      if (bodies_.find(limb.ends[0]) != body && bodies_.find(limb.ends[1]) != body) continue;
+      if (!is_hubs(limb.line.front()) && !is_hubs(limb.line.back())) continue;
+      if (std::all_of(limb.line.begin(), limb.line.end(), is_hubs)) continue;
       thickest[1] = std::max(thickest[1], std::min(limb.size, thickest[0]));
       thickest[0] = std::max(thickest[0], limb.size);
     }
     const double radius = radius_of(count);
-    return thickest[0] > 0 && radius > kThicker * thickest[0] && radius > kThick * thickest[1];
+    return count < kTaken * growth.all.count && thickest[0] > 0 && radius > kThicker * thickest[0] &&
+           radius > kThick * thickest[1];
   }
 
-  double radius_of(double count) const {  // of a ball
-    return in_.lattice.spacing * std::cbrt(0.75 / std::numbers::pi * count);
-  }
-
-  // Until it holds no more; false where it holds a free end of a limb that is longer than it is thick.  What of
-  // limbs lies outside in the end is theirs: where their slices begin to grow, noise changes.
-  bool grow(std::uint32_t number, HubMoments& all, LimbHub& hub) {
-    for (bool grows = true; grows;) {
-      grows = false;
-      fit(all, hub);
-      for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-        if (result_.of[v] != kNone || hub.outside(in_.places[v]) >= 0) continue;
-        if (ends_[v] == 1 && length_[v] > 2 * radius_of(all.count)) return false;
-        result_.of[v] = number;
-        all.add(moments_[v]);
-        grows = true;
-      }
-    }
-    for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (result_.of[v] == number && length_[v] > 0 && hub.outside(in_.places[v]) >= 0) result_.of[v] = kNone;
-    return fills(all.count, hub) && !is_bar(hub) && has_middle(hub);
-  }
-
-  // A network of rods is none.
-  bool fills(double count, const LimbHub& hub) const {
-    const double ball = std::pow(radius_of(count) * kGrown, 3);
-    return ball * std::sqrt(determinant(hub.form)) >= kFilled;
-  }
-
-  // The middle of a ring or of what is bent lies outside the solid.
-  bool has_middle(const LimbHub& hub) const {
-    std::array<std::int64_t, 3> place{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      place[axis] = std::llround(hub.centre[axis] / in_.lattice.spacing);
-    const auto& runs = in_.lattice.axis[2].runs;
-    const auto is_before = [](const std::array<std::int64_t, 3>& at, const LatticeRun& run) {
-      return std::lexicographical_compare(at.begin(), at.end(), run.start.begin(), run.start.end());
+  // Of a line from a hub on, what has sections as beyond is a limb's, and where these grow suddenly it is the hub's, over as
+  // much as the limb is thick.
+  void part_by_sections(const std::vector<std::uint32_t>& line, std::uint32_t number) {
+    const std::size_t last =
+        is_joint(line.back()) ? line.size() / 2 : line.size();  // beyond, a link leads to another
+    std::size_t first = 0;
+    while (first < last && result_.of[line[first]] == number) ++first;
+    std::vector<double> sections;
+    for (std::size_t n = first; n < last && result_.of[line[n]] == kNone; ++n)
+      sections.push_back(in_.section[line[n]]);
+    if (sections.empty()) return;
+    const double own = median(std::move(sections)),
+                 begin = length_of(in_.places, std::span(line).first(first + 1));
+    const auto is_near = [&] {
+      return length_of(in_.places, std::span(line).first(first + 1)) - begin < own;
     };
-    const auto after = std::upper_bound(runs.begin(), runs.end(), place, is_before);
-    if (after == runs.begin()) return false;
-    const LatticeRun& run = *std::prev(after);
-    return run.start[0] == place[0] && run.start[1] == place[1] &&
-           place[2] < std::int64_t{run.start[2]} + run.length;
+    while (first < line.size() / 2 && result_.of[line[first]] == kNone && is_near() &&
+           grows_at(line, first, in_.section))
+      result_.of[line[first++]] = number;
+    while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) result_.of[line[--first]] = kNone;
+  }
+
+  // What it is of its ellipsoid: a network of rods is little.
+  double filled(const Growth& growth) const {
+    const double ball = kPerBall * volume_of(growth.all.count) * kGrown * kGrown * kGrown;
+    return ball * std::sqrt(determinant(growth.hub.form));
   }
 
   bool is_bar(const LimbHub& hub) const {
@@ -233,11 +371,14 @@ class FindHubs {
 
   const LimbHubsInput& in_;
   std::vector<std::uint32_t> ends_;  // of lines, per vertex
-  std::vector<double> length_;       // per vertex: of the limb that its line is; 0 of a joint
+  std::vector<std::uint32_t> limb_;  // per vertex: that its line is; kNone of a joint
   std::vector<char> is_body_;        // per vertex: no limb's
+  std::vector<char> is_tried_;       // per vertex: held by what has grown, and was no hub
   DisjointSets bodies_;
   std::vector<HubLimb> limbs_;
   std::vector<HubMoments> moments_;  // per vertex: of its points
+  StopCheck stop_;
+  std::vector<double> found_filled_;  // per hub
   LimbHubs result_;
 };
 

@@ -20,6 +20,8 @@ struct TubeAmongOthers : TubedLimb {
   bool is_hidden = false;                                 // in the tubes of others, whole
 };
 
+constexpr double kOwnEllipses = 1.5;  // a limb has, of what is nearest to it, where a hub would have it
+
 class LimbTubes {
  public:
   explicit LimbTubes(const TubedLimbsInput& input) : places_(input.places), tubed_(tubed_limbs(input)) {
@@ -42,7 +44,8 @@ class LimbTubes {
     const Limb& limb = limbs_[tubed_.limb_of[nearest]];
     const std::array<double, 2> outside{outside_hub(limb.ends[0], at), outside_hub(limb.ends[1], at)};
     const std::size_t nearer = outside[1] < outside[0] ? 1 : 0;
-    if (outside[nearer] < 0) return limb.ends[nearer];
+    if (outside[nearer] < 0)
+      return !limb.is_hidden && is_own(limb, nearest, nearer, at) ? nearest : limb.ends[nearer];
     if (!limb.is_hidden) {
       if (const Limb* thicker = thicker_about(limb, at))
         return own_vertex(*thicker, nearest_in(*thicker, at));
@@ -170,6 +173,17 @@ class LimbTubes {
   double outside_hub(std::uint32_t joint, const Vec3& at) const {
     const LimbHub* hub = tubed_.hubs.at(joint);
     return hub ? hub->outside(at) : std::numeric_limits<double>::infinity();
+  }
+
+  // What a limb that begins within the ellipsoid of a hub has there, as a finger where it leaves the palm, with what noise
+  // makes stand out; it has a flat end.
+  bool is_own(const Limb& limb, std::uint32_t vertex, std::size_t end, const Vec3& at) const {
+    const std::uint32_t first = limb.at(end, 0);
+    if (outside_hub(limb.ends[end], places_[first]) >= 0) return false;
+    const TubeRing& ring = limb.rings[tubed_.rank[vertex]];
+    const Vec3 way = at - places_[vertex];
+    if (vertex == first && (end == 0 ? -1 : 1) * dot(cross(ring.u, ring.v), way) > 0) return false;
+    return ring.across(way) < kOwnEllipses * kOwnEllipses;
   }
 
   // What is nearest to a hub's own lines, or to its limbs' within it.

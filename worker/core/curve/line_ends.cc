@@ -14,7 +14,9 @@ constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known 
 // way to the joint at most that share.
 constexpr double kCorner = 2, kNearCorner = 1.5, kInner = 0.6;
 constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
-constexpr double kWider = 1.1;    // times: no bar's end, but a head or a foot
+constexpr double kAhead =
+    0.4;  // cosine: less where a limb turns, as a vessel that leaves the wall of a heart
+constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
 // Of a tube as long, what an end has: up to the one it is round, from the other on flat.
@@ -75,6 +77,7 @@ class DrawEnd {
         std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight) - at(inner)));
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
     if (dot(along, unit(at(0) - at(first))) > kTurned) return round;
+    if (dot(along, unit(at(0) - at(inner))) < kAhead) return round;
     const double widest = kWider * section(at(inner), along).radius;
     for (std::size_t n = 0; n < inner; ++n)
       if (section(at(n), along).radius > widest) return round;

@@ -18,6 +18,9 @@ using LatticePlace = std::array<std::uint32_t, 3>;
 /// The run along the last axis that a sample point is in.  O(log runs).
 const LatticeRun& run_of(const Lattice& lattice, std::uint32_t point);
 
+/// Whether the place of the lattice that is nearest to real indices is a sample point.  O(log runs).
+bool is_sample_point(const Lattice& lattice, const Vec3& indices);
+
 /// Where sample points stand.  O(1) for those that follow each other in a run.
 /// @param points ranks of sample points.
 std::vector<LatticePlace> lattice_places(const Lattice& lattice, std::span<const std::uint32_t> points);

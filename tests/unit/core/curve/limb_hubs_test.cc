@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/curve/drawn_lines.h"
@@ -22,7 +23,7 @@ constexpr double kCubeSide = 4;
 struct Cube : DrawnLines {
   Lattice lattice;
   Vec3 middle;
-  std::vector<double> radius;
+  std::vector<double> radius, section;  // as much as the radius where not told
 
   explicit Cube(const Vec3& sides = {kCubeSide, kCubeSide, kCubeSide})
       : Cube(make_box(sides.x, sides.y, sides.z)) {}
@@ -50,13 +51,19 @@ struct Cube : DrawnLines {
         radius.push_back(std::max(0.5, std::min(within, 0.5 + grows * (from - 0.1 * n))));
     }
   }
+  // Sections like a body's so far from its middle, and a limb's beyond.
+  void open_until(double way) {
+    section.clear();
+    for (const Vec3& at : places) section.push_back(norm(at - middle) < way ? 1.5 : 0.5);
+  }
   LimbHubs found() const {
     std::vector<std::uint32_t> nearest(lattice.points, 0);
     each_point([&](const Vec3& at, std::uint32_t rank) {
       for (std::uint32_t v = 1; v < places.size(); ++v)
         if (norm(places[v] - at) < norm(places[nearest[rank]] - at)) nearest[rank] = v;
     });
-    return limb_hubs({places, polylines(places.size(), segments), radius, lattice, nearest});
+    return limb_hubs({places, polylines(places.size(), segments), radius, section.empty() ? radius : section,
+                      lattice, nearest});
   }
 };
 
@@ -65,13 +72,14 @@ const std::vector<Vec3> kCross{{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1,
 TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
   Cube cube;
   const std::uint32_t joint = cube.add(cube.middle, 2);
-  cube.go_out(joint, kCross, 2.2, 2, 3.5);  // beyond the ellipsoid
+  cube.go_out(joint, kCross, 2.2, 2, 3.5);                    // beyond the ellipsoid
+  const double axis = 1.1 * std::sqrt(5.0 / 12) * kCubeSide;  // of the ellipsoid with a cube's moments
+  cube.open_until(axis);
   const LimbHubs found = cube.found();
   ASSERT_EQ(found.hubs.size(), 1U);
   const LimbHub& hub = found.hubs[0];
   EXPECT_EQ(hub.joint, joint);
   EXPECT_LT(norm(hub.centre - cube.middle), 1e-9);
-  const double axis = 1.1 * std::sqrt(5.0 / 12) * kCubeSide;  // of the ellipsoid with a cube's moments
   for (const Vec3& way : {Vec3{1, 0, 0}, Vec3{0, 0.6, 0.8}})
     for (const double off : {-0.1, 0.1})
       EXPECT_NEAR(hub.outside(cube.middle + (axis + off) * way), off, 0.02);
@@ -136,9 +144,9 @@ Cube cube_with_limb(int vertices, double radius) {
   return cube;
 }
 
-// A ball as large as what that limb leaves of the cube has 2.16.
+// A ball as large as the cube has 2.48.
 TEST(LimbHubs, AreNotWhereALimbIsAsThick) {
-  EXPECT_TRUE(cube_with_limb(80, 1.6).found().hubs.empty());
+  EXPECT_TRUE(cube_with_limb(80, 1.9).found().hubs.empty());
   EXPECT_EQ(cube_with_limb(80, 1.5).found().hubs.size(), 1U) << "as a seat with a back, that is thick alone";
 }
 
@@ -154,10 +162,10 @@ TEST(LimbHubs, AreNoNetworks) {
 
 // A limb grows where it turns a corner: of a bar with thin arms nothing else makes a hub.
 TEST(LimbHubs, AreNoBars) {
-  for (const double length : {6., 8.}) {
+  for (const double length : {4., 6.}) {
     Cube bar({2, 2, length});
     bar.go_out(bar.add(bar.middle, 2), kCross, 1.5, 1.5);
-    EXPECT_EQ(bar.found().hubs.size(), length < 3.5 * 2 ? 1U : 0U) << length;
+    EXPECT_EQ(bar.found().hubs.size(), length < 2.25 * 2 ? 1U : 0U) << length;
   }
 }
 
@@ -189,6 +197,89 @@ TEST(LimbHubs, HoldNoLimbsEnd) {
 // A seat whose two joints are farther apart than what is nearest to the link between them is thick, by its volume.
 TEST(LimbHubs, AreAsWideAsAPlate) {
   expect_one_hub_of_two_joints(Cube({12, 12, 2}), {-2.5, 0, 0}, 50, 2.4);
+}
+
+// A palm, 8 wide and 2 thick, with four fingers, and a forearm as thick as it, along which its ellipsoid would grow on and on.
+TEST(LimbHubs, DoNotGrowAlongALimb) {
+  Cube palm(joined(moved(make_box(8, 8, 2), {0, 8, 0}), moved(make_box(4.6, 8.5, 2), {1.7, 0, 0})));
+  const Vec3 middle{4, 12, 1};
+  const std::uint32_t joint = palm.add(middle, 2);
+  palm.radius.assign(1, 2.2);
+  const std::uint32_t wrist = palm.go(joint, {0, -0.1, 0}, 100, 1.7);
+  palm.radius.resize(palm.places.size(), 1.7);
+  palm.go_out(joint, {{0.1, 0, 0}, {0.06, 0.08, 0}, {-0.06, 0.08, 0}, {-0.1, 0, 0}}, 2.2, 2, 4.2);
+  const LimbHubs found = palm.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[wrist], kNone);
+  EXPECT_LT(norm(found.hubs[0].centre - middle), 2);
+}
+
+// A body twice as long as wide, with a joint in either half, and a line between them that leads round: from each joint half
+// of it is found first.
+TEST(LimbHubs, AreOneWhereTheyLieInEachOther) {
+  Cube body({10, 5, 5});
+  const std::uint32_t one = body.add(body.middle + Vec3{-2.5, 0, 0}, 2);
+  const std::uint32_t other = body.add(body.middle + Vec3{2.5, 0, 0}, 2);
+  const std::uint32_t corner = body.add(body.middle + Vec3{0, 2.4, 2.4}, 0.5);
+  body.join(one, corner);
+  body.join(corner, other);
+  body.radius = {3, 3, 0.5};
+  body.go_out(one, {{-0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}}, 2.2, 2, 3.5);
+  body.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}}, 2.2, 2, 3.5);
+  const LimbHubs found = body.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[one], 0U);
+  EXPECT_EQ(found.of[other], 0U);
+  EXPECT_LT(norm(found.hubs[0].centre - body.middle), 0.2);
+}
+
+// The ellipsoid of a cube reaches 2.84 from its middle.
+TEST(LimbHubs, EndWhereTheirLimbsHaveSectionsAsBeyond) {
+  for (const double end : {2.25, 3.25}) {
+    Cube cube;
+    cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
+    cube.open_until(end);
+    const LimbHubs found = cube.found();
+    ASSERT_EQ(found.hubs.size(), 1U);
+    for (std::uint32_t v = 0; v < cube.places.size(); ++v)
+      EXPECT_EQ(found.of[v] == 0, norm(cube.places[v] - cube.middle) < end) << v;
+  }
+}
+
+// Noise makes forks in thin limbs to which no sample point is nearest.
+TEST(LimbHubs, DoNotGrowFromNothing) {
+  Cube cube;
+  const std::uint32_t joint = cube.add(cube.middle, 2);
+  cube.go_out(joint, kCross, 2.2, 2, 3.5);
+  cube.open_until(2.84);
+  const std::uint32_t fork = cube.segments.back()[1];
+  for (const Vec3& far : {Vec3{50, 0, 0}, Vec3{0, 50, 0}})
+    cube.join(fork, cube.add(cube.places[fork] + far, 0.5));
+  cube.radius.resize(cube.places.size(), 0.5);
+  cube.section.resize(cube.places.size(), 0.5);
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[fork], kNone);
+}
+
+// Two bodies as large: what a link has beyond its middle is the other's, and tells nothing of how thick it is itself.
+TEST(LimbHubs, PartALinkByTheHalfThatIsNear) {
+  Cube both(joined(joined(make_box(4, 4, 4), moved(make_box(4, 4, 4), {5, 0, 0})),
+                   moved(make_box(2, 1, 1), {3.5, 1.5, 1.5})));
+  const std::uint32_t one = both.add({2, 2, 2}, 2);
+  const std::uint32_t other = both.go(one, {0.1, 0, 0}, 50, 0.5);
+  both.radius.assign(both.places.size(), 0.5);
+  for (const auto& [joint, side] : {std::pair(one, -0.1), std::pair(other, 0.1)})
+    both.go_out(joint, {{side, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}}, 2.2, 2, 3.5);
+  both.section = both.radius;
+  for (std::uint32_t v = one; v <= other; ++v)
+    both.section[v] = std::abs(both.places[v].x - 4.5) < 0.6 ? 0.5 : 2.2;
+  const LimbHubs found = both.found();
+  ASSERT_EQ(found.hubs.size(), 2U);
+  for (std::uint32_t v = one; v <= other; ++v)
+    if (std::abs(both.places[v].x - 4.5) > 1) {
+      EXPECT_NE(found.of[v], kNone) << both.places[v].x;
+    }
 }
 
 }  // namespace
