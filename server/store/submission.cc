@@ -32,10 +32,20 @@ void check_size(const char* what, const std::string& text, std::size_t most) {
                     " bytes, and may have at most " + std::to_string(most));
 }
 
+/// In UTF-8: those from U+0080 on have two bytes.
+bool has_control(const std::string& text) {
+  unsigned char before = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < ' ' || byte == 0x7F || (before == 0xC2 && byte < 0xA0)) return true;
+    before = byte;
+  }
+  return false;
+}
+
 /// What a line on a screen has no place for.
 void check_seen(const char* what, const std::string& text) {
-  const auto controls = [](char c) { return (c >= 0 && c < ' ') || c == 0x7F; };
-  if (std::any_of(text.begin(), text.end(), controls))
+  if (has_control(text))
     refuse_submission(std::string(what) + " " + base::quoted(text) + " has a control character");
 }
 

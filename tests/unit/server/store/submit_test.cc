@@ -49,6 +49,8 @@ TEST_F(SubmitTest, RefusesWrongHeaders) {
   refused([](auto& h) { h.set_name(std::string(201, 'n')); });
   for (const char control : {'\0', '\n', '\x1b', '\x7f'})
     refused([&](auto& h) { h.set_name(std::string("a") + control + "b"); });
+  for (const char* control : {"\u0080", "\u0085", "\u009f"})
+    refused([&](auto& h) { h.set_name(std::string("a") + control + "b"); });
   refused([](auto& h) { h.set_owner(std::string(101, 'n')); });
   refused([](auto& h) { h.mutable_params()->clear_sampling(); });
   refused([](auto& h) { h.mutable_params()->mutable_sampling()->set_spacing(-1); });
