@@ -63,7 +63,7 @@ void add_new_kinds(Database& db) {
 void renew_all(Tx& tx) {
   for (const TaskRow& task : leased_tasks(tx.db)) {
     tx.db.run(
-        "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = ?1 + ?3, reported_ms = ?1,"
+        "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = ?1 + ?3, reported_ms = ?1, waited_ms = NULL,"
         " granted_ms = min(granted_ms, ?1) WHERE id = ?4",
         tx.lease_ms, tx.options.lease_ms, patience_ms(tx, task), task.id);
   }

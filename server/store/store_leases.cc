@@ -86,7 +86,7 @@ void grant(Tx& tx, const TaskRow& task, const v1::WorkerIdentity& worker, bool s
   tx.db.run(
       "UPDATE tasks SET state = 'leased', token = ?, late_token = NULL, worker = ?, host = ?, pid = ?,"
       " supervised = ?, core_version = ?, granted_ms = ?, reported_ms = NULL, deadline_ms = ?,"
-      " stalled_ms = ?, lease_directions = 0 WHERE id = ?",
+      " stalled_ms = ?, waited_ms = NULL, lease_directions = 0 WHERE id = ?",
       token, worker.id(), worker.host(), worker.pid(), supervised, worker.core_version(), tx.lease_ms,
       tx.lease_ms + tx.options.lease_ms, tx.lease_ms + patience_ms(tx, task), task.id);
   end_turn(tx, task);

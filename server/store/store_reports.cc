@@ -103,7 +103,7 @@ void count_report(Tx& tx, const TaskRow& task, const Progress& progress) {
     });
   }
   tx.db.run(
-      "UPDATE tasks SET reported_ms = ?, lease_directions = lease_directions + ?,"
+      "UPDATE tasks SET reported_ms = ?, waited_ms = NULL, lease_directions = lease_directions + ?,"
       " losses = iif(? > 0, 0, losses) WHERE id = ?",
       tx.lease_ms, progress.reported, progress.added, task.id);
   if (progress.added > 0 && task.state == "leased") {

@@ -28,7 +28,7 @@ void clear_lease(Tx& tx, const TaskRow& task, const char* state) {
   tx.db.run(
       "UPDATE tasks SET state = ?, token = NULL, late_token = NULL, worker = NULL, host = NULL, pid = NULL,"
       " supervised = NULL, core_version = NULL, granted_ms = NULL, reported_ms = NULL, deadline_ms = NULL,"
-      " stalled_ms = NULL, lease_directions = 0 WHERE id = ?",
+      " stalled_ms = NULL, waited_ms = NULL, lease_directions = 0 WHERE id = ?",
       state, task.id);
   tx.changes.jobs.insert(task.job_id);
   tx.changes.work = true;
@@ -63,12 +63,12 @@ double lost_directions(const Tx& tx, const TaskRow& task) {
 }
 
 /// A lease that can make no progress at the moment.  Its worker tries several times a second, and every commit takes a
-/// little of what is left of the disk.  The first time counts, too: pause_ms() sees by it that there was a wait.
+/// little of what is left of the disk: what is written may be half a lease old.
 void keep_waiting(Tx& tx, const TaskRow& task) {
   tx.db.run(
-      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?3) WHERE id = ?4"
+      "UPDATE tasks SET deadline_ms = ?1 + ?2, stalled_ms = max(stalled_ms, ?1 + ?3), waited_ms = ?1 WHERE id = ?4"
       " AND (deadline_ms < ?1 + ?2 / 2 OR stalled_ms < ?1 + ?3 / 2"
-      "  OR stalled_ms <= ifnull(reported_ms, granted_ms) + ?3)",
+      "  OR ifnull(waited_ms, 0) < ?1 - ?2 / 2)",
       tx.lease_ms, tx.options.lease_ms, patience_ms(tx, task), task.id);
 }
 
@@ -129,9 +129,9 @@ std::int64_t patience_ms(Tx& tx, const TaskRow& task) {
 
 std::int64_t pause_ms(Tx& tx, const TaskRow& task) {
   const std::int64_t heard = task.reported_ms.value_or(task.granted_ms);
-  const std::int64_t patient_until =
-      tx.db.integer("SELECT stalled_ms FROM tasks WHERE id = ?", task.id).value_or(0);
-  return patient_until > heard + patience_ms(tx, task) ? 0 : tx.lease_ms - heard;
+  const std::int64_t waited =
+      tx.db.integer("SELECT ifnull(waited_ms, 0) FROM tasks WHERE id = ?", task.id).value_or(0);
+  return tx.lease_ms - std::max(heard, waited);
 }
 
 TaskRow held_task(Tx& tx, const std::string& token) {

@@ -26,7 +26,7 @@ std::vector<Range> left_of_block(Database& db, const JobRow& job, const TaskRow&
 /// Milliseconds that a task may be leased without progress.
 std::int64_t patience_ms(Tx& tx, const TaskRow& task);
 
-/// Milliseconds since the worker was last heard of its task, or had it; 0 when a full disk has kept it waiting since then.
+/// Milliseconds since the worker was last heard of its task, had it, or was refused for want of room on the disk.
 std::int64_t pause_ms(Tx& tx, const TaskRow& task);
 
 /// Whether nobody wants the task any more.

@@ -211,6 +211,47 @@ TEST_F(FullDiskTest, AWaitForTheDiskIsNoPauseBetweenReports) {
   EXPECT_EQ(store_->expire_leases(), 2) << "they have not been patient for longer than before";
 }
 
+// The report of another worker, with a pause of its own, makes the patience of all longer before the wait ends.
+TEST_F(FullDiskTest, AWaitForTheDiskIsNoPauseWhateverOthersReportMeanwhile) {
+  const std::string job = submit().id();
+  prepare(50000, 64);
+  const v1::Lease block = lease(), other = lease("worker-b");
+  disk_.leave(3 * kMiB);
+  const std::uint64_t at = report_until_full(block, block.positions(0).begin());
+  disk_.leave(kMiB);
+  for (int s = 0; s < 600; ++s) {
+    clock_.advance(1000);
+    store_->renew(block.token());
+    if (s >= 524) store_->renew(other.token());  // it was silent until then
+    store_->expire_leases();
+    EXPECT_THROW(report(block, at, at + 1), SqliteError);
+  }
+  disk_.leave(100 * kMiB);
+  store_->tidy();
+  report(other, other.positions(0).begin(), other.positions(0).begin() + 1);
+  report(block, at, at + 1);
+  EXPECT_EQ(store_->job(job).counters().longest_report_gap_ms(), 75'000U);
+}
+
+TEST_F(FullDiskTest, APauseAfterARefusalCounts) {
+  const std::string job = submit().id();
+  prepare(50000, 64);
+  const v1::Lease block = lease();
+  disk_.leave(3 * kMiB);
+  const std::uint64_t at = report_until_full(block, block.positions(0).begin());
+  disk_.leave(kMiB);
+  clock_.advance(options_.lease_ms);
+  EXPECT_THROW(report(block, at, at + 1), SqliteError);
+  disk_.leave(100 * kMiB);
+  store_->tidy();
+  for (int s = 0; s < 60; ++s) {
+    clock_.advance(1000);
+    store_->renew(block.token());
+  }
+  report(block, at, at + 1);
+  EXPECT_EQ(store_->job(job).counters().longest_report_gap_ms(), 60'000U);
+}
+
 // The end of the last block merges the log into the field, for which there is no room.
 TEST_F(FullDiskTest, AJobWhoseLastBlockEndsOnAFullDiskGoesOnWhenThereIsRoom) {
   const v1::Job job = submit();
