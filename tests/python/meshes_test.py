@@ -156,12 +156,13 @@ class SameMesh(unittest.TestCase):
             self.assertEqual((said["name"], said["priority"]), ("n", 7))
 
     def test_a_job_has_the_name_of_its_file_unless_it_is_given_one(self):
-        named = directory / "two\nlines.off"
+        named = directory / "two\nlines\x1b\u0085.off"
         named.write_bytes((directory / "body.off").read_bytes())
         for number, name in enumerate((None, "")):
-            self.assertEqual(client.submit(named, spacing=310 + number, name=name).status().name, "two lines")
-        with self.assertRaises(affskel.UsageError):
-            client.submit(named, spacing=320, name="nul\0")
+            self.assertEqual(client.submit(named, spacing=310 + number, name=name).status().name, "two lines??")
+        for control in "\0\u0085":
+            with self.assertRaises(affskel.UsageError):
+                client.submit(named, spacing=320, name=f"a{control}b")
 
 
 if __name__ == "__main__":

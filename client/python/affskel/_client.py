@@ -34,7 +34,7 @@ _COMMANDS = re.compile(r"; (?:fill them by: .*? --repair (fill=\S+) .*, or )?"
                        "take a new surface round all of it: .* --repair wrap .*")
 
 
-_CONTROLS = re.compile("[\\0-\\x1f\\x7f]")  # which no name may have
+_CONTROLS = re.compile("[\\0-\\x1f\\x7f-\\x9f]")  # which no name may have
 
 
 def _own_way(commands: re.Match[str]) -> str:
@@ -46,6 +46,11 @@ def _own_way(commands: re.Match[str]) -> str:
 def _short(text: str, most: int) -> str:
     """At most so many bytes, cut between characters; what is no text becomes a question mark."""
     return text.encode("utf-8", "replace")[:most].decode("utf-8", "ignore")
+
+
+def _one_line(text: str) -> str:
+    """As affskel-client has names of files."""
+    return _CONTROLS.sub(lambda control: " " if control[0] in "\n\t" else "?", text)
 
 
 def _user_name() -> str:
@@ -186,7 +191,7 @@ class Client:
         if not by_program:
             by_program = _needs_program(given, spacing, repair)
         header.skeleton.CopyFrom(skeleton_params(operator, threshold))
-        header.name = name or _short(_CONTROLS.sub(" ", given.name), MAX_NAME)
+        header.name = name or _short(_one_line(given.name), MAX_NAME)
         if isinstance(priority, bool) or not isinstance(priority, numbers.Integral) or priority not in range(10):
             raise UsageError(f"the priority {priority!r} is not a whole number 0 .. 9")
         header.priority = int(priority)
