@@ -285,14 +285,14 @@ void give_to_stars(const Lattice& lattice, const LimbHubs& hubs, std::span<const
 struct LimbsAndHubs {
   SlicedLines limbs;
   LimbHubs hubs = {};
+  bool are_drawn_anew = false;  // the lines: limbs is of those before
 };
 
 // Draws lines anew in flat bodies.
 LimbsAndHubs with_hubs(const Solid& solid, const Lattice& lattice, const LimbSurface& surface,
                        CurveSkeleton& curve, ExecutionContext* context) {
   give_the_rest(lattice, curve);
-  const auto slice = [&] { return sliced_lines({solid, lattice, surface, curve, context}, curve.nearest); };
-  LimbsAndHubs found{slice()};
+  LimbsAndHubs found{sliced_lines({solid, lattice, surface, curve, context}, curve.nearest)};
   const auto& [places, balls, slices, radius, lines] = found.limbs;
   const std::vector<double> section =
       section_sizes(places, balls, lines, [&](const Vec3& at, const Vec3& across, double ball) {
@@ -300,14 +300,15 @@ LimbsAndHubs with_hubs(const Solid& solid, const Lattice& lattice, const LimbSur
       });
   found.hubs = limb_hubs({places, lines, radius, section, lattice, curve.nearest, context});
   const auto number = draw_hub_stars(surface, lattice.spacing, found.hubs, curve);
-  if (number.empty()) return found;
-  give_to_stars(lattice, found.hubs, number, curve, context);
-  found.limbs = slice();
+  found.are_drawn_anew = !number.empty();
+  if (found.are_drawn_anew) give_to_stars(lattice, found.hubs, number, curve, context);
   return found;
 }
 
 void measure(const Solid& solid, const Lattice& lattice, const LimbSurface& surface, LimbsAndHubs found,
              CurveSkeleton& curve, ExecutionContext* context) {
+  if (found.are_drawn_anew)
+    found.limbs = sliced_lines({solid, lattice, surface, curve, context}, curve.nearest);
   const auto& [places, balls, slices, radius, lines] = found.limbs;
   curve.slice = slices;
   std::vector<char> is_hubs(places.size(), 0);

@@ -121,8 +121,6 @@ class HubStars {
     return unit(place(first) - place(at == first ? within : at));
   }
 
-  bool goes(std::uint32_t v) const { return hubs_.of[v] != kNone && !arms_[hubs_.of[v]].empty(); }
-
   void draw() {
     const SheetMesh old = std::exchange(curve_, {});
     const std::vector<std::uint32_t> of = std::exchange(hubs_.of, {});

@@ -96,6 +96,14 @@ TEST(LimbHubs, TheRimOfAFlatOneIsAsFarAsItIs) {
   EXPECT_NEAR(plate.outside({0, 0, 3}), 2, 1e-12);
 }
 
+void expect_one_hub(const Cube& body, std::uint32_t one, std::uint32_t other, double tolerance) {
+  const LimbHubs found = body.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[one], 0U);
+  EXPECT_EQ(found.of[other], 0U);
+  EXPECT_LT(norm(found.hubs[0].centre - body.middle), tolerance);
+}
+
 // A body with a link of so many vertices between two joints, and two limbs at each.
 void expect_one_hub_of_two_joints(Cube body, const Vec3& first, int vertices, double radius) {
   const std::uint32_t one = body.add(body.middle + first, 2);
@@ -103,11 +111,7 @@ void expect_one_hub_of_two_joints(Cube body, const Vec3& first, int vertices, do
   body.radius.assign(body.places.size(), radius);
   body.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5);
   body.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5);
-  const LimbHubs found = body.found();
-  ASSERT_EQ(found.hubs.size(), 1U);
-  EXPECT_EQ(found.of[one], 0U);
-  EXPECT_EQ(found.of[other], 0U);
-  EXPECT_LT(norm(found.hubs[0].centre - body.middle), 0.05);
+  expect_one_hub(body, one, other, 0.05);
 }
 
 // Lines beside the cube's middle, from arm to arm, and a link between them that is shorter than thick.
@@ -226,11 +230,7 @@ TEST(LimbHubs, AreOneWhereTheyLieInEachOther) {
   body.radius = {3, 3, 0.5};
   body.go_out(one, {{-0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}}, 2.2, 2, 3.5);
   body.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}}, 2.2, 2, 3.5);
-  const LimbHubs found = body.found();
-  ASSERT_EQ(found.hubs.size(), 1U);
-  EXPECT_EQ(found.of[one], 0U);
-  EXPECT_EQ(found.of[other], 0U);
-  EXPECT_LT(norm(found.hubs[0].centre - body.middle), 0.2);
+  expect_one_hub(body, one, other, 0.2);
 }
 
 // The ellipsoid of a cube reaches 2.84 from its middle.
