@@ -33,7 +33,7 @@ void report_stray(const FinishedField& field, const core::ChordSheet& sheet, v1:
   }
   if (places.empty()) return;
   const std::vector<float> radius = core::surface_distance(field.lattice());
-  set_advice(
+  add_advice(
       core::stray_sheet_advice(field.lattice(), radius, places, points,
                                {message.components(), message.holes(), message.cavities()},
                                {message.solid_components(), static_cast<std::uint64_t>(message.solid_genus()),

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 #include "base/number_text.h"
 #include "base/ridge_threshold.h"
+#include "core/quality/skeleton_advice.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
 #include "derive/messages.h"
@@ -14,6 +16,15 @@ namespace {
 
 double threshold_of(double given) {
   return given == 0 ? base::kMinCurveThreshold : given;
+}
+
+// Why a curve has none.
+std::string without_lines(const core::CurveSkeleton& curve, double threshold) {
+  const std::string alone = "the curve is the place of the greatest E alone, without a line.";
+  if (curve.opened.empty())
+    return "no limb is " + base::to_text(threshold) + " of its own radii long: " + alone;
+  return "the solid is a membrane round a cavity, and a line leads through limbs, not round that: " + alone +
+         " The operator ridge has its sheet.";
 }
 
 }  // namespace
@@ -62,17 +73,9 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   message.set_opened(static_cast<std::uint32_t>(curve.opened.size()));
   for (std::size_t n = 0; n < std::min(kMaxPlaces, curve.opened.size()); ++n)
     set_place(field_.to_mesh(curve.opened[n].place), curve.opened[n].distance, *message.add_openings());
-  if (!curve.segments.empty() || !message.advice().empty()) return message;
-  const std::string alone = "the curve is the place of the greatest E alone, without a line.";
-  if (curve.opened.empty())
-    set_advice(
-        {"no limb is " + base::to_text(threshold_of(threshold)) + " of its own radii long: " + alone, {}},
-        message);
-  else
-    set_advice({"the solid is a membrane round a cavity, and a line leads through limbs, not round that: " +
-                    alone + " The operator ridge has its sheet.",
-                {}},
-               message);
+  if (message.advice().empty() && curve.segments.empty())
+    add_advice({without_lines(curve, threshold_of(threshold)), {}}, message);
+  add_advice(core::stretched_limbs_advice(field_.lattice()), message);
   return message;
 }
 

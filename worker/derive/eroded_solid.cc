@@ -41,7 +41,7 @@ v1::SkeletonPoints eroded_points(const FinishedField& field, const v1::ErodedPar
   const std::vector<core::LatticePlace> places = core::lattice_places(field.lattice(), points);
   v1::SkeletonPoints message;
   for (std::size_t i = 0; i < points.size(); ++i) append_point(field, points[i], places[i], message);
-  if (points.empty()) set_advice(advice_for(field, level_of(field, params)), *message.mutable_quality());
+  if (points.empty()) add_advice(advice_for(field, level_of(field, params)), *message.mutable_quality());
   return message;
 }
 
@@ -57,7 +57,7 @@ v1::TriangleMesh eroded_surface(const FinishedField& field, const v1::ErodedPara
   append_values(surface.values, message);
   message.set_volume(surface.volume);
   if (surface.mesh.triangles.empty())
-    set_advice(advice_for(field, options.level), *message.mutable_quality());
+    add_advice(advice_for(field, options.level), *message.mutable_quality());
   return message;
 }
 

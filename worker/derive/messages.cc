@@ -1,5 +1,7 @@
 #include "derive/messages.h"
 
+#include <cctype>
+
 namespace affskel::worker {
 
 void append(const core::Vec3& v, google::protobuf::RepeatedField<double>* list) {
@@ -53,12 +55,17 @@ v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality) {
   if (quality.hausdorff_back) message.set_hausdorff_back(*quality.hausdorff_back);
   message.set_other_threshold(quality.other_threshold);
   message.set_chance_level(quality.chance_level);
-  set_advice(quality.advice, message);
+  add_advice(quality.advice, message);
   return message;
 }
 
-void set_advice(const core::Advice& advice, v1::SkeletonQuality& message) {
-  message.set_advice(advice.text);
+void add_advice(core::Advice advice, v1::SkeletonQuality& message) {
+  if (advice.text.empty()) return;
+  if (!message.advice().empty()) {
+    advice.text[0] = static_cast<char>(std::toupper(advice.text[0]));
+    *message.mutable_advice() += ' ';
+  }
+  *message.mutable_advice() += advice.text;
   for (const core::Setting& setting : advice.settings) {
     v1::Setting& to_try = *message.add_to_try();
     to_try.set_name(setting.name);

@@ -31,6 +31,7 @@ void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message);
 
 v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality);
 
-void set_advice(const core::Advice& advice, v1::SkeletonQuality& message);
+/// Beside what is advised already.
+void add_advice(core::Advice advice, v1::SkeletonQuality& message);
 
 }  // namespace affskel::worker

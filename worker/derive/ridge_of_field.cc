@@ -48,10 +48,10 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   kept.components -= sheet.fragments;
   const core::BettiNumbers of_solid{message.solid_components(), solid, message.solid_cavities()};
   const bool meet = kept != of_solid && field_.job().solid().surfaces_meet;
-  set_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid, meet), message);
+  add_advice(core::coarse_lattice_advice(field_.lattice(), kept, of_solid, meet), message);
   if (!message.advice().empty() || cut) return;
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
-  set_advice(core::small_skeleton_advice(field_.lattice(), basis().radius, vertices), message);
+  add_advice(core::small_skeleton_advice(field_.lattice(), basis().radius, vertices), message);
   if (!message.advice().empty()) return;
   std::vector<core::Vec3> places;
   std::vector<std::uint32_t> points;
@@ -59,7 +59,7 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
     places.push_back(vertex.position);
     points.push_back(vertex.point);
   }
-  set_advice(core::bare_solid_advice(field_.lattice(), basis().radius, places, points), message);
+  add_advice(core::bare_solid_advice(field_.lattice(), basis().radius, places, points), message);
 }
 
 void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, double threshold,
@@ -70,7 +70,7 @@ void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, double threshold,
         return vertex.kind == core::SkeletonKind::kRidge || vertex.kind == core::SkeletonKind::kCurve;
       });
   const double share = static_cast<double>(on_ridge) / static_cast<double>(sheet.vertices.size());
-  set_advice(core::little_ridge_advice(share, threshold), message);
+  add_advice(core::little_ridge_advice(share, threshold), message);
 }
 
 void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {

@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "core/base/matrix3.h"
 #include "core/base/plain_math.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/erosion/field.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_points.h"
@@ -42,6 +43,9 @@ constexpr std::size_t kLookedAt = 20000;
 // Of the vertices of a skeleton of `ridge`: below this share on a ridge hardly any is.  A lower threshold, by this
 // factor.
 constexpr double kLittleRidge = 0.1, kLowerThreshold = 3;
+
+// More than by rounding, and so much that limbs are others.
+constexpr double kStretched = 1 + 1e-6, kOtherLimbs = 1.5;
 
 // A sheet of less than this share of the points of one through a cube is hardly there.
 constexpr double kLittleSheet = 0.1;
@@ -94,16 +98,13 @@ std::string degrees(double opening) {
   return std::to_string(std::lrint(angle));
 }
 
-// Whether lengths in the lattice's frame are not those of the mesh.
-bool is_stretched(const Lattice& lattice) {
-  constexpr double kSame = 1e-6;
+// How many times as much the lattice's frame stretches the mesh one way as another.
+double stretch_of(const Lattice& lattice) {
   const Matrix3 f = frame_matrix(lattice);
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b) {
-      if (std::abs(dot(f[a], f[b]) - (a == b ? 1 : 0)) > kSame) return true;
-    }
-  }
-  return false;
+  Matrix3 squares{};
+  for (const Vec3& axis : f) squares = squares + outer(axis, axis);
+  const auto lengths = symmetric_eigen(squares).values;
+  return std::sqrt(lengths[0] / lengths[2]);
 }
 
 void add_on_directions(std::size_t advised, std::size_t more_directions, Advice& advice) {
@@ -116,7 +117,7 @@ Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_
   Advice advice{"the normals on the two sides of a shock differ by " + degrees(census.max_turn) +
                     " degrees at most, and a skeleton needs " + degrees(strong_turn) + ".",
                 {}};
-  if (is_stretched(lattice)) {
+  if (stretch_of(lattice) > kStretched) {
     advice.text +=
         " The lattice's frame is stretched, which makes a flat solid as thick as it is wide: submit with "
         "the frame axis or pca.";
@@ -229,6 +230,16 @@ Advice little_ridge_advice(double share, double threshold) {
           "solid's topology. A threshold of " +
           lower + " may find more.",
       {{"threshold", lower}}};
+}
+
+Advice stretched_limbs_advice(const Lattice& lattice) {
+  const double stretch = stretch_of(lattice);
+  if (stretch < kOtherLimbs) return {};
+  return {
+      "limbs are told in the lattice's frame, in which the solid is stretched " + base::rounded(stretch, 2) +
+          " times as much one way as another: what is thin here may be too thick there to be a limb. In the "
+          "frame axis they are told as they are.",
+      {{"frame", "axis"}}};
 }
 
 Advice stray_sheet_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,

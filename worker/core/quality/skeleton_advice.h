@@ -68,6 +68,10 @@ Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, 
 /// @param share of its vertices that lie on ridges. @param threshold of these, for a lower one to try.
 Advice little_ridge_advice(double share, double threshold);
 
+/// That limbs of `curve` are told in a frame that stretches the solid, so that some may not be, and the frame in which
+/// they are told as they are; nothing where it hardly does.
+Advice stretched_limbs_advice(const Lattice& lattice);
+
 /// What is wrong with a sheet of `chords`: that it is not the solid's, where their pieces, tunnels or voids differ, or that
 /// there is hardly any, or none near much of the solid; else nothing.
 /// @param places of its shocks, in the frame. @param points the sample point of each.

@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/curve/curved.h"
+#include "core/curve/tubes.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/polylines.h"
 #include "core/quality/sheet_topology.h"
@@ -20,6 +21,7 @@
 #include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/solid/betti_numbers.h"
+#include "core/solid/solid_frame.h"
 #include "core/solid/solid_membership.h"
 #include "core/test_solids.h"
 
@@ -267,6 +269,25 @@ TEST(CurveSkeleton, RefusesALengthThatIsNone) {
   const Curved box(make_box(4, 2, 1), 0.25, "sphere:80");
   for (const double reach : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(box.at(reach), CoreError);
+}
+
+// Its vertices keep their coordinates in the frame.
+TEST(CurveSkeleton, GoesAlongWithAMapInTheFrameAffine) {
+  const std::vector<Tube> tubes = {{turned({0, 0, 0}), turned({0, 0, 7}), 1},
+                                   {turned({0, 0, 7}), turned({3, 0.5, 10}), 0.6},
+                                   {turned({0, 0, 7}), turned({-2, 2.5, 9}), 0.5},
+                                   {turned({0, 0, 7}), turned({-1.5, -3, 9.5}), 0.7}};
+  const Mesh mesh = tube_mesh(tubes, 0.5);
+  Mesh image = mesh;
+  for (Vec3& p : image.points) p = {p.x + 0.7 * p.z, p.y + 0.4 * p.x, p.z};
+  const double h = 0.3;
+  const auto axes = [&](const Mesh& of) { return h * solid_frame(make_solid(of), FrameKind::kAffine); };
+  const Curved one(mesh, axes(mesh), "triangles"), other(image, axes(image), "triangles");
+  const CurveSkeleton before = one.at(), after = other.at();
+  ASSERT_EQ(before.segments, after.segments);
+  EXPECT_GE(before.ends, 3U);
+  for (std::size_t v = 0; v < before.vertices.size(); ++v)
+    EXPECT_LT(norm(before.vertices[v].position - after.vertices[v].position), 1e-6 * h);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace affskel::core {
 
-Curved::Curved(const Mesh& mesh, double h, const std::string& directions)
-    : solid_(mesh, {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}}, directions),
+Curved::Curved(const Mesh& mesh, const Matrix3& axes, const std::string& directions)
+    : solid_(mesh, axes, directions),
       basis_(ridge_basis(solid_.solid, solid_.lattice, solid_.field)),
       ridge_(ridge_sheet(solid_.solid, solid_.lattice, solid_.field, basis_)) {}
 

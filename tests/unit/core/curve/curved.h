@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/base/matrix3.h"
 #include "core/chords/chord_fields.h"
 #include "core/curve/curve_graph.h"
 #include "core/curve/curve_skeleton.h"
@@ -14,7 +15,11 @@ namespace affskel::core {
 class Curved {
  public:
   /// @param h their edge.
-  Curved(const Mesh& mesh, double h, const std::string& directions);
+  Curved(const Mesh& mesh, double h, const std::string& directions)
+      : Curved(mesh, {Vec3{h, 0, 0}, Vec3{0, h, 0}, Vec3{0, 0, h}}, directions) {}
+
+  /// @param axes of its cells.
+  Curved(const Mesh& mesh, const Matrix3& axes, const std::string& directions);
 
   CurveSkeleton at(double least_reach = CurveOptions().least_reach) const;
 

@@ -229,6 +229,18 @@ TEST(LittleRidgeAdvice, SuggestsALowerThreshold) {
 }
 
 // A rod with its sheet; a part of it; with too few points for one; in two pieces.
+TEST(StretchedLimbsAdvice, IsForFramesThatStretch) {
+  NormalBlock block({10, 10, 10});
+  Lattice lattice = block.lattice;
+  lattice.grid.axes = {Vec3{0, 0.1, 0}, Vec3{-0.1, 0, 0}, Vec3{0, 0, 0.14}};
+  EXPECT_EQ(stretched_limbs_advice(lattice).text, "");
+  lattice.grid.axes = {Vec3{0.2, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0.05, 0.05, 0.05}};
+  const Advice advice = stretched_limbs_advice(lattice);
+  EXPECT_TRUE(says(advice, "stretched 4.9 times")) << advice.text;
+  EXPECT_TRUE(suggests(advice, "frame", "axis"));
+  EXPECT_TRUE(is_plain(advice));
+}
+
 TEST(StraySheetAdvice, TellsWhatASheetLacks) {
   NormalBlock block({3, 3, 60}, 0.5);
   const std::vector<float> radius(block.lattice.points, 1.5f);
