@@ -13,9 +13,10 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
-#include "core/base/groups.h"
 #include "core/base/none.h"
 #include "core/base/parity_rows.h"
+#include "core/curve/burn_times.h"
+#include "core/curve/sheet_edges.h"
 
 namespace affskel::core {
 namespace {
@@ -31,8 +32,10 @@ class Collapse {
         context_(context),
         pieces_(sheet.vertices.size()),
         stays_(ends.begin(), ends.end()),
+        all_(sheet),
+        edge_left_(edges_.size(), 1),
         triangles_left_(sheet.triangles.size(), 1) {
-    list_edges();
+    count_edges();
     keep_centres();
   }
 
@@ -46,30 +49,12 @@ class Collapse {
   }
 
  private:
-  void list_edges() {
-    const auto add = [&](std::uint32_t a, std::uint32_t b) {
-      edges_.push_back(ascending(a, b));
-      pieces_.unite(a, b);
-    };
-    for (const Triangle& t : sheet_.triangles)
-      for (std::size_t k = 0; k < 3; ++k) add(t[k], t[(k + 1) % 3]);
-    for (const Segment& s : sheet_.segments) add(s[0], s[1]);
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    edge_left_.assign(edges_.size(), 1);
-    for (const Triangle& t : sheet_.triangles)
-      edges_of_.push_back({number(t[0], t[1]), number(t[1], t[2]), number(t[2], t[0])});
-    triangles_of_ = holders(edges_.size(), edges_of_);
-    edges_round_ = holders(sheet_.vertices.size(), edges_);
+  void count_edges() {
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       cofaces_.push_back(static_cast<std::uint32_t>(triangles_of_[e].size()));
     for (std::uint32_t v = 0; v < sheet_.vertices.size(); ++v)
       edges_at_.push_back(static_cast<std::uint32_t>(edges_round_[v].size()));
-  }
-
-  std::uint32_t number(std::uint32_t a, std::uint32_t b) const {
-    return static_cast<std::uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), ascending(a, b)) -
-                                      edges_.begin());
+    for (const auto& [a, b] : edges_) pieces_.unite(a, b);
   }
 
   // The vertex of the greatest E in each piece that has less than two ends, or where a line through it ends beyond it.
@@ -94,10 +79,10 @@ class Collapse {
   std::uint32_t free_end_beyond(std::uint32_t centre) const {
     if (edges_round_[centre].size() > 2) return centre;
     for (const std::uint32_t first : edges_round_[centre]) {
-      std::uint32_t edge = first, v = other_end(edge, centre);
+      std::uint32_t edge = first, v = all_.other_end(edge, centre);
       while (cofaces_[edge] == 0 && !stays_[v] && edges_round_[v].size() == 2) {
         edge = edges_round_[v][edges_round_[v][0] == edge ? 1 : 0];
-        v = other_end(edge, v);
+        v = all_.other_end(edge, v);
         if (v == centre) return centre;
       }
       if (cofaces_[edge] == 0 && !stays_[v] && edges_round_[v].size() == 1) return v;
@@ -105,73 +90,34 @@ class Collapse {
     return centre;
   }
 
-  std::uint32_t other_end(std::uint32_t edge, std::uint32_t v) const {
-    return edges_[edge][0] == v ? edges_[edge][1] : edges_[edge][0];
-  }
-
-  // Per vertex: how far the nearest of `from` is, along the sheet.
-  std::vector<double> distances(std::vector<std::uint32_t> from) const {
+  // Per vertex: when it is eaten.
+  std::vector<double> times() const {
+    const std::vector<char> starts = starts_of_lines();
+    std::vector<double> result = burn_times(sheet_, all_, triangles_left_, starts);
+    std::vector<std::uint32_t> from(starts.size(), kNone);
+    for (std::uint32_t v = 0; v < from.size(); ++v)
+      if (starts[v]) from[v] = v;
     CheapestWays ways(std::move(from));
     ways.find([&](std::uint32_t v, const auto& go) {
       const Vec3& at = sheet_.vertices[v].position;
-      for_each_step(v, [&](std::uint32_t to) { go(to, norm(at - sheet_.vertices[to].position), v); });
+      for_each_step(sheet_, all_, triangles_left_, v, [&](std::uint32_t to, std::uint32_t) {
+        go(to, norm(at - sheet_.vertices[to].position), v);
+      });
     });
-    return std::move(ways.cost);
-  }
-
-  // Per vertex: when it is eaten.
-  std::vector<double> times() const {
-    std::vector<std::uint32_t> rim(sheet_.vertices.size(), kNone), starts = rim;
-    for (std::uint32_t e = 0; e < edges_.size(); ++e)
-      if (cofaces_[e] == 1)
-        for (const std::uint32_t v : edges_[e]) rim[v] = v;
-    mark_starts_of_lines(starts);
-    std::vector<double> result = distances(std::move(rim));
-    const std::vector<double> way = distances(std::move(starts));
     for (std::size_t v = 0; v < result.size(); ++v)
-      if (std::isfinite(way[v])) result[v] -= kStraight * way[v];
+      if (std::isfinite(ways.cost[v])) result[v] -= kStraight * ways.cost[v];
     return result;
   }
 
   // Ends, and where lines meet sheets.
-  void mark_starts_of_lines(std::vector<std::uint32_t>& starts) const {
-    std::vector<char> on_sheet(starts.size(), 0);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e)
-      if (cofaces_[e] > 0)
-        for (const std::uint32_t v : edges_[e]) on_sheet[v] = 1;
-    const auto mark = [&](std::uint32_t v) {
-      if (on_sheet[v]) starts[v] = v;
-    };
-    for (std::uint32_t v = 0; v < starts.size(); ++v)
-      if (stays_[v]) mark(v);
-    for (std::uint32_t e = 0; e < edges_.size(); ++e)
-      if (edge_left_[e] && cofaces_[e] == 0)
-        for (const std::uint32_t v : edges_[e]) mark(v);
-  }
-
-  // Calls visit(to) for the vertices of the triangles about one, and for those right across their far edges.
-  template <class Visit>
-  void for_each_step(std::uint32_t v, const Visit& visit) const {
-    for (const std::uint32_t e : edges_round_[v]) {
-      for (const std::uint32_t t : triangles_of_[e]) {
-        if (!triangles_left_[t]) continue;
-        for (const std::uint32_t to : sheet_.triangles[t])
-          if (to != v) visit(to);
-        visit_across(v, t, visit);
-      }
+  std::vector<char> starts_of_lines() const {
+    std::vector<char> starts(stays_), on_sheet(starts.size(), 0);
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+      if (!edge_left_[e]) continue;
+      for (const std::uint32_t v : edges_[e]) (cofaces_[e] > 0 ? on_sheet : starts)[v] = 1;
     }
-  }
-
-  template <class Visit>
-  void visit_across(std::uint32_t v, std::uint32_t t, const Visit& visit) const {
-    for (const std::uint32_t e : edges_of_[t]) {
-      if (edges_[e][0] == v || edges_[e][1] == v) continue;
-      for (const std::uint32_t beyond : triangles_of_[e]) {
-        if (!triangles_left_[beyond]) continue;
-        for (const std::uint32_t to : sheet_.triangles[beyond])
-          if (to != v && to != edges_[e][0] && to != edges_[e][1]) visit(to);
-      }
-    }
+    for (std::size_t v = 0; v < starts.size(); ++v) starts[v] = starts[v] && on_sheet[v];
+    return starts;
   }
 
   void eat_sheets() {
@@ -227,7 +173,7 @@ class Collapse {
       edge_left_[edge] = 0;
       edges_at_[v] = 0;
       gone_.push_back(v);
-      v = other_end(edge, v);
+      v = all_.other_end(edge, v);
       --edges_at_[v];
     }
   }
@@ -326,10 +272,11 @@ class Collapse {
   ExecutionContext* context_;
   DisjointSets pieces_;  // of vertices
   std::vector<char> stays_;
-  std::vector<Segment> edges_;                          // smaller vertex first, ascending
-  std::vector<std::array<std::uint32_t, 3>> edges_of_;  // per triangle
-  Groups<std::uint32_t> triangles_of_, edges_round_;    // per edge, per vertex
-  std::vector<char> triangles_left_, edge_left_;
+  const SheetEdges all_;
+  const std::vector<Segment>& edges_ = all_.edges;
+  const std::vector<std::array<std::uint32_t, 3>>& edges_of_ = all_.of;
+  const Groups<std::uint32_t>&triangles_of_ = all_.triangles, &edges_round_ = all_.round;
+  std::vector<char> edge_left_, triangles_left_;
   std::vector<std::uint32_t> cofaces_, edges_at_;  // that are left, per edge and per vertex
   std::vector<double> time_;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> front_;
