@@ -1,12 +1,12 @@
-// A *fan*: the triangles about a vertex that hang together by edges at which no others meet.
+// A *fan*: the triangles about a vertex that hang together by edges of it at which no third one is.  Fire is in a fan once it
+// comes to the vertex in it, or once it is the last that does not burn at one of the edges there.
 #include "core/curve/burn_times.h"
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <queue>
 #include <tuple>
-#include <utility>
 
 #include "core/base/disjoint_sets.h"
 
@@ -15,97 +15,97 @@ namespace {
 
 class Fire {
  public:
-  Fire(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left,
-       std::span<const char> held)
+  Fire(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left)
       : sheet_(sheet),
         edges_(edges),
         left_(left),
         fans_(3 * sheet.triangles.size()),
-        fan_is_burned_(3 * sheet.triangles.size(), 0),
-        unburned_(held.begin(), held.end()),
-        times_(sheet.vertices.size(), std::numeric_limits<double>::infinity()) {
-    for (std::uint32_t& count : unburned_) count = count != 0;
-  }
+        times_(3 * sheet.triangles.size(), std::numeric_limits<double>::infinity()) {}
 
   std::vector<double> run() {
-    light();
-    burn();
-    while (true) {
-      for (const auto& [time, v] : waiting_) burn_vertex(v, time);
-      waiting_.clear();
-      if (front_.empty()) break;
-      burn();
+    join_fans();
+    for (std::uint32_t v = 0; v < sheet_.vertices.size(); ++v) spread(v, 0);
+    while (!front_.empty()) {
+      const auto [time, v, fan] = front_.top();
+      front_.pop();
+      if (burns(fan)) continue;
+      light(fan, v, time);
+      spread(v, time);
     }
-    return std::move(times_);
+    return times();
   }
 
  private:
-  bool is_burned(std::uint32_t v) const { return std::isfinite(times_[v]); }
-
-  std::uint32_t corner(std::uint32_t t, std::uint32_t v) const {
+  std::uint32_t fan(std::uint32_t t, std::uint32_t v) {
     const Triangle& corners = sheet_.triangles[t];
-    return 3 * t + (corners[0] == v ? 0 : corners[1] == v ? 1 : 2);
+    return fans_.find(3 * t + (corners[0] == v ? 0 : corners[1] == v ? 1 : 2));
   }
+  bool burns(std::uint32_t fan) const { return times_[fan] < std::numeric_limits<double>::infinity(); }
 
-  void light() {
+  void join_fans() {
     std::vector<std::uint32_t> there;
     for (std::uint32_t e = 0; e < edges_.edges.size(); ++e) {
       there.clear();
       for (const std::uint32_t t : edges_.triangles[e])
         if (left_[t]) there.push_back(t);
-      for (const std::uint32_t v : edges_.edges[e]) {
-        if (there.size() == 2) fans_.unite(corner(there[0], v), corner(there[1], v));
-        if (there.size() == 1) front_.push({0, v, corner(there[0], v)});
+      if (there.size() != 2) continue;
+      for (const std::uint32_t v : edges_.edges[e]) fans_.unite(fan(there[0], v), fan(there[1], v));
+    }
+  }
+
+  // Into what is the last at an edge of a vertex.
+  void spread(std::uint32_t v, double time) {
+    for (bool any = true; any;) {
+      any = false;
+      for (const std::uint32_t e : edges_.round[v]) {
+        std::uint32_t count = 0, last = 0;
+        for (const std::uint32_t t : edges_.triangles[e]) {
+          if (!left_[t] || burns(fan(t, v))) continue;
+          ++count;
+          last = fan(t, v);
+        }
+        if (count != 1) continue;
+        light(last, v, time);
+        any = true;
       }
     }
-    for (std::uint32_t t = 0; t < sheet_.triangles.size(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k)
-        unburned_[sheet_.triangles[t][k]] += left_[t] && fans_.find(3 * t + k) == 3 * t + k;
   }
 
-  void burn() {
-    while (!front_.empty()) {
-      const auto [time, v, at] = front_.top();
-      front_.pop();
-      if (std::exchange(fan_is_burned_[fans_.find(at)], 1)) continue;
-      if (--unburned_[v] <= 1)
-        burn_vertex(v, time);
-      else
-        waiting_.push_back({time, v});
-    }
-  }
-
-  void burn_vertex(std::uint32_t v, double time) {
-    if (is_burned(v)) return;
-    times_[v] = time;
-    for_each_step(sheet_, edges_, left_, v, [&](std::uint32_t to, std::uint32_t t) {
-      const double way = norm(sheet_.vertices[v].position - sheet_.vertices[to].position);
-      if (!is_burned(to)) front_.push({time + way, to, corner(t, to)});
+  void light(std::uint32_t burning, std::uint32_t v, double time) {
+    times_[burning] = time;
+    for_each_triangle(edges_, left_, v, [&](std::uint32_t from) {
+      if (fan(from, v) != burning) return;
+      for_each_step(sheet_, edges_, left_, from, v, [&](std::uint32_t to, std::uint32_t t) {
+        const std::uint32_t next = fan(t, to);
+        const double way = norm(sheet_.vertices[v].position - sheet_.vertices[to].position);
+        if (!burns(next)) front_.push({time + way, to, next});
+      });
     });
   }
 
-  struct Wait {
-    double time;
-    std::uint32_t vertex;
-  };
+  // Of vertices: when the last of their fans burns.
+  std::vector<double> times() {
+    std::vector<double> result(sheet_.vertices.size(), 0);
+    for (std::uint32_t t = 0; t < sheet_.triangles.size(); ++t)
+      for (const std::uint32_t v : sheet_.triangles[t])
+        if (left_[t]) result[v] = std::max(result[v], times_[fan(t, v)]);
+    return result;
+  }
+
   using Arrival = std::tuple<double, std::uint32_t, std::uint32_t>;  // when, at which vertex, in which fan
 
   const SheetMesh& sheet_;
   const SheetEdges& edges_;
   std::span<const char> left_;
-  DisjointSets fans_;                    // of corners of triangles
-  std::vector<char> fan_is_burned_;      // by its first corner
-  std::vector<std::uint32_t> unburned_;  // fans, per vertex, and what is held there
-  std::vector<double> times_;
-  std::vector<Wait> waiting_;
+  DisjointSets fans_;          // of corners of triangles
+  std::vector<double> times_;  // per fan, by its first corner
   std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> front_;
 };
 
 }  // namespace
 
-std::vector<double> burn_times(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left,
-                               std::span<const char> held) {
-  return Fire(sheet, edges, left, held).run();
+std::vector<double> burn_times(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left) {
+  return Fire(sheet, edges, left).run();
 }
 
 }  // namespace affskel::core

@@ -24,32 +24,35 @@ struct SheetEdges {
   }
 };
 
-/// Steps in a sheet: from a vertex to the others of the triangles about it, and to those right across their far edges, where
-/// two triangles meet.
+/// Steps in a sheet from a corner of a triangle: to its others, and right across to that of the triangle beyond, where no third
+/// meets them.
 /// @param left per triangle: whether it is there. @param visit (to, triangle of that).
 template <class Visit>
 void for_each_step(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left,
-                   std::uint32_t v, const Visit& visit) {
-  const auto across = [&](std::uint32_t t, std::uint32_t e) {
-    std::uint32_t beyond = t;
-    int count = 0;
-    for (const std::uint32_t other : edges.triangles[e]) {
-      count += left[other] != 0;
-      if (left[other] && other != t) beyond = other;
+                   std::uint32_t t, std::uint32_t v, const Visit& visit) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (sheet.triangles[t][k] != v) visit(sheet.triangles[t][k], t);
+    const Segment& far = edges.edges[edges.of[t][k]];
+    if (far[0] == v || far[1] == v) continue;
+    std::uint32_t beyond = t, count = 0;
+    for (const std::uint32_t other : edges.triangles[edges.of[t][k]]) {
+      if (!left[other]) continue;
+      ++count;
+      if (other != t) beyond = other;
     }
-    if (count != 2) return;
+    if (count != 2) continue;
     for (const std::uint32_t to : sheet.triangles[beyond])
-      if (to != edges.edges[e][0] && to != edges.edges[e][1]) visit(to, beyond);
-  };
-  for (const std::uint32_t e : edges.round[v]) {
-    for (const std::uint32_t t : edges.triangles[e]) {
-      if (!left[t]) continue;
-      for (const std::uint32_t to : sheet.triangles[t])
-        if (to != v) visit(to, t);
-      for (const std::uint32_t far : edges.of[t])
-        if (edges.edges[far][0] != v && edges.edges[far][1] != v) across(t, far);
-    }
+      if (to != far[0] && to != far[1]) visit(to, beyond);
   }
+}
+
+/// Calls visit(triangle) for those about a vertex that are left, for each as often as it has edges there.
+template <class Visit>
+void for_each_triangle(const SheetEdges& edges, std::span<const char> left, std::uint32_t v,
+                       const Visit& visit) {
+  for (const std::uint32_t e : edges.round[v])
+    for (const std::uint32_t t : edges.triangles[e])
+      if (left[t]) visit(t);
 }
 
 }  // namespace affskel::core

@@ -92,16 +92,14 @@ class Collapse {
 
   // Per vertex: when it is eaten.
   std::vector<double> times() const {
-    const std::vector<char> starts = starts_of_lines();
-    std::vector<double> result = burn_times(sheet_, all_, triangles_left_, starts);
-    std::vector<std::uint32_t> from(starts.size(), kNone);
-    for (std::uint32_t v = 0; v < from.size(); ++v)
-      if (starts[v]) from[v] = v;
-    CheapestWays ways(std::move(from));
+    std::vector<double> result = burn_times(sheet_, all_, triangles_left_);
+    CheapestWays ways(starts_of_lines());
     ways.find([&](std::uint32_t v, const auto& go) {
       const Vec3& at = sheet_.vertices[v].position;
-      for_each_step(sheet_, all_, triangles_left_, v, [&](std::uint32_t to, std::uint32_t) {
-        go(to, norm(at - sheet_.vertices[to].position), v);
+      for_each_triangle(all_, triangles_left_, v, [&](std::uint32_t t) {
+        for_each_step(sheet_, all_, triangles_left_, t, v, [&](std::uint32_t to, std::uint32_t) {
+          go(to, norm(at - sheet_.vertices[to].position), v);
+        });
       });
     });
     for (std::size_t v = 0; v < result.size(); ++v)
@@ -109,14 +107,16 @@ class Collapse {
     return result;
   }
 
-  // Ends, and where lines meet sheets.
-  std::vector<char> starts_of_lines() const {
-    std::vector<char> starts(stays_), on_sheet(starts.size(), 0);
+  // Ends, and where lines meet sheets: themselves.
+  std::vector<std::uint32_t> starts_of_lines() const {
+    std::vector<char> is_start(stays_), on_sheet(stays_.size(), 0);
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
       if (!edge_left_[e]) continue;
-      for (const std::uint32_t v : edges_[e]) (cofaces_[e] > 0 ? on_sheet : starts)[v] = 1;
+      for (const std::uint32_t v : edges_[e]) (cofaces_[e] > 0 ? on_sheet : is_start)[v] = 1;
     }
-    for (std::size_t v = 0; v < starts.size(); ++v) starts[v] = starts[v] && on_sheet[v];
+    std::vector<std::uint32_t> starts(stays_.size(), kNone);
+    for (std::uint32_t v = 0; v < starts.size(); ++v)
+      if (is_start[v] && on_sheet[v]) starts[v] = v;
     return starts;
   }
 
