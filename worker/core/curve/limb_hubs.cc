@@ -89,7 +89,7 @@ class FindHubs {
   }
 
   // How much wider than thick what is nearest to a line is, across it: in its slices, which are thinner.
-  double flatness(const std::vector<std::uint32_t>& line) const {
+  double flatness(std::span<const std::uint32_t> line) const {
     Matrix3 across{};
     double count = 0;
     for (const std::uint32_t v : line) {
@@ -116,13 +116,19 @@ class FindHubs {
     return 1;
   }
 
+  std::span<const std::uint32_t> without_bodies(const std::vector<std::uint32_t>& line) const {
+    const std::size_t first = before_limb(line),
+                      last = before_limb(std::vector<std::uint32_t>(line.rbegin(), line.rend()));
+    return first + last < line.size() ? std::span(line).subspan(first, line.size() - first - last) : line;
+  }
+
   // What of a line is a limb's, and what is not.
   void part(std::vector<std::uint32_t> line) {
     const std::uint32_t a = line.front(), b = line.back();
     const double length = length_of(in_.places, line);
     const double size = size_of(line);
     const bool is_link = is_joint(a) && is_joint(b);
-    if (is_link && (length < 2 * size || (a != b && flatness(line) > kPlate)))
+    if (is_link && (length < 2 * size || (a != b && flatness(without_bodies(line)) > kPlate)))
       return give_body(line, line.size());
     for (const std::uint32_t v : line)
       if (!is_joint(v)) limb_[v] = static_cast<std::uint32_t>(limbs_.size());
