@@ -10,6 +10,7 @@
 #include "core/base/disjoint_sets.h"
 #include "core/base/plain_math.h"
 #include "core/mesh/box.h"
+#include "core/spatial/ray_crossing.h"
 
 namespace affskel::core {
 namespace {
@@ -208,18 +209,10 @@ std::optional<Vec3> LimbSections::parted(const Vec3& a, const Vec3& b) const {
   const Vec3 way = b - a;
   double first = 1, last = 0;
   tree_.visit(WayQuery{a, way, kSlack * largest_component(way)}, [&](std::uint32_t t) {
-    const Vec3 &p = surface_.points[surface_.triangles[t][0]], &q = surface_.points[surface_.triangles[t][1]],
-               &r = surface_.points[surface_.triangles[t][2]];
-    const Vec3 out = cross(q - p, r - p);
-    const double steep = dot(out, way), part = dot(out, p - a) / steep;
-    if (steep == 0 || !(part >= 0 && part <= 1)) return;
-    const Vec3 at = a + part * way;
-    const auto is_left = [&](const Vec3& from, const Vec3& to) {
-      return dot(cross(to - from, at - from), out) >= 0;
-    };
-    if (!is_left(p, q) || !is_left(q, r) || !is_left(r, p)) return;
-    first = std::min(first, part);
-    last = std::max(last, part);
+    const std::optional<double> part = crossing_along(surface_, surface_.triangles[t], a, way);
+    if (!part || !(*part >= 0 && *part <= 1)) return;
+    first = std::min(first, *part);
+    last = std::max(last, *part);
   });
   if (last < first) return std::nullopt;
   return a + 0.5 * (first + last) * way;

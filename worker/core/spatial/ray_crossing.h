@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "core/mesh/mesh.h"
 
-// Rays parallel to an axis against triangles.  Seen along the axis, a triangle is a polygon in (u, v),
+// Rays against triangles, most of them parallel to an axis.  Seen along the axis, a triangle is a polygon in (u, v),
 // u = (axis + 1) % 3, v = (axis + 2) % 3.
 
 namespace affskel::core {
@@ -36,6 +37,21 @@ inline double distance_along(const Mesh& mesh, const Triangle& t, const Vec3& q,
   const Vec3 &a = mesh.points[t[0]], n = twice_area(mesh, t);
   if (n[axis] == 0) return a[axis] - q[axis];
   return a[axis] - ((q[u] - a[u]) * n[u] + (q[v] - a[v]) * n[v]) / n[axis] - q[axis];
+}
+
+/// Where a triangle, with its border, crosses a line in any direction.
+/// @return the part of `way` from there to it, of either sign; none where the line runs along it, or beside it.
+inline std::optional<double> crossing_along(const Mesh& mesh, const Triangle& t, const Vec3& from,
+                                            const Vec3& way) {
+  const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+  const Vec3 out = cross(b - a, c - a);
+  const double steep = dot(out, way);
+  if (steep == 0) return std::nullopt;
+  const double part = dot(out, a - from) / steep;
+  const Vec3 at = from + part * way;
+  const auto is_left = [&](const Vec3& p, const Vec3& q) { return dot(cross(q - p, at - p), out) >= 0; };
+  if (!is_left(a, b) || !is_left(b, c) || !is_left(c, a)) return std::nullopt;
+  return part;
 }
 
 }  // namespace affskel::core

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "core/base/parallel.h"
-#include "core/solid/solid_membership.h"
+#include "core/spatial/box_tree.h"
 #include "core/spatial/distance_to_mesh.h"
+#include "core/spatial/ray_crossing.h"
 
 namespace affskel::core {
 namespace {
@@ -13,21 +16,25 @@ namespace {
 // A step is a share of the distance to the skeleton, which it cannot cross so (Hart, "Sphere tracing", 1996); by less
 // than 1 the least distance is not passed over where the way misses a curve.
 constexpr double kStep = 0.5;
+constexpr double kSlack = 1e-9;  // for rounding, of ways
 constexpr double kPasses = 0.5;  // of the centroid's distance: see surface_thickness()
 
 class Ways {
  public:
-  Ways(const Solid& solid, const Mesh& skeleton, double near)
-      : skeleton_(skeleton), membership_(solid.mesh), near_(near) {}
+  Ways(const Solid& solid, const Mesh& skeleton, const ThicknessOptions& options)
+      : solid_(solid.mesh),
+        triangles_(boxes_of(solid.mesh), options.threads),
+        skeleton_(skeleton),
+        near_(options.near) {}
 
   double thickness(const Vec3& from, const Vec3& inward) const {
     const Vec3 nearest = skeleton_.nearest_place(from);
     const double straight = norm(nearest - from);
     if (dot(inward, inward) == 0) return straight;
     double least = straight, foot = dot(nearest - from, inward);
-    for (double way = std::max(kStep * straight, near_); least > near_ && way < 2 * straight;) {
+    const double most = way_out(from, inward, 2 * straight);
+    for (double way = std::max(kStep * straight, near_); least > near_ && way < most;) {
       const Vec3 at = from + way * inward;
-      if (!membership_.contains(at)) break;
       const Vec3 there = skeleton_.nearest_place(at);
       const double distance = norm(there - at);
       if (distance < least) {
@@ -40,8 +47,29 @@ class Ways {
   }
 
  private:
+  // How far a way from the surface is within the solid, at most `most`.  It enters through the triangle that it begins on.
+  double way_out(const Vec3& from, const Vec3& inward, double most) const {
+    struct Crossing {
+      double way;
+      int winding;  // what the way gains there
+      bool operator<(const Crossing& other) const { return way < other.way; }
+    };
+    std::vector<Crossing> crossings;
+    triangles_.visit(WayQuery{from, inward, kSlack * most, most}, [&](std::uint32_t t) {
+      const std::optional<double> way = crossing_along(solid_, solid_.triangles[t], from, inward);
+      if (way && *way > -kSlack * most)
+        crossings.push_back({*way, dot(twice_area(solid_, solid_.triangles[t]), inward) > 0 ? -1 : 1});
+    });
+    std::sort(crossings.begin(), crossings.end());
+    int winding = 0;
+    for (const Crossing& crossing : crossings)
+      if ((winding += crossing.winding) <= 0) return crossing.way;
+    return most;
+  }
+
+  const Mesh& solid_;
+  BoxTree triangles_;
   DistanceToMesh skeleton_;
-  SolidMembership membership_;
   double near_;
 };
 
@@ -49,7 +77,7 @@ class Ways {
 
 std::vector<double> surface_thickness(const Solid& solid, const Mesh& surface, const Mesh& skeleton,
                                       std::span<const Vec3> inward, const ThicknessOptions& options) {
-  const Ways ways(solid, skeleton, options.near);
+  const Ways ways(solid, skeleton, options);
   std::vector<double> result(surface.triangles.size());
   parallel_ranges(options.threads, result.size(), [&](std::size_t begin, std::size_t end) {
     StopCheck stop(options.context);

@@ -90,6 +90,25 @@ TEST(SurfaceThickness, OutwardWaysGiveTheDistance) {
   }
 }
 
+// Two plates, 2 thick, a gap of 0.5 apart, and a skeleton in the upper one alone: from below the lower one the way leaves
+// that before.  Where the plates cross it goes on.
+TEST(SurfaceThickness, EndsWhereTheWayLeavesTheSolid) {
+  for (const double gap : {0.5, -0.5}) {
+    const Mesh plate = make_box(8, 8, 2, 8), mesh = joined(plate, moved(plate, {0, 0, 2 + gap}));
+    const Solid plates = make_solid(mesh);
+    const Mesh middle{{{0, 0, 3 + gap}, {8, 0, 3 + gap}, {8, 8, 3 + gap}}, {{0, 1, 2}}};
+    const std::vector<double> found =
+        thickness(plates, middle, std::vector<Vec3>(mesh.triangles.size(), {0.6, 0, 0.8}));
+    const Vec3 below{4, 2, 0};
+    for (std::size_t t = 0; t < found.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Vec3 at = (1. / 3) * (mesh.points[a] + (mesh.points[b] + mesh.points[c]));
+      if (norm(at - below) > 1) continue;
+      EXPECT_NEAR(found[t], gap > 0 ? 3 + gap : (3 + gap) / 0.8, 0.05);
+    }
+  }
+}
+
 TEST(SurfaceThickness, DoesNotDependOnThreadsAndStops) {
   const Solid torus = make_solid(make_torus(3, 1, 4000));
   const Mesh centre{{{3, 0, 0}, {-3, 0, 0}, {0, 3, 0}}, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
