@@ -5,7 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/plain_math.h"
-#include "core/solid/solid_membership.h"
+#include "core/spatial/axis_rays.h"
 #include "core/spatial/locality_order.h"
 
 namespace affskel::core {
@@ -107,13 +107,13 @@ void TreeInput::find_crossings(const Solid& solid) {
 
 void TreeInput::find_nested(unsigned threads) {
   constexpr double kOffset = 1e-7;  // far less than the spacing of any lattice
-  const SolidMembership membership(mesh);
+  const AxisRays along_x(mesh, threads);
   nested.resize(mesh.points.size());
   parallel_ranges(threads, nested.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const double length = norm(pseudonormal[v]);
       if (length == 0) continue;
-      nested[v] = membership.contains(mesh.points[v] + (kOffset / length) * pseudonormal[v]);
+      nested[v] = along_x.shoot(mesh.points[v] + (kOffset / length) * pseudonormal[v], 0, true).winding > 0;
     }
   });
 }

@@ -2,19 +2,20 @@
 
 #include <initializer_list>
 
+#include "core/mesh/box.h"
 #include "core/mesh/mesh.h"
 #include "core/spatial/axis_rays.h"
 
 namespace affskel::core {
 
-/// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by
-/// a ray along +x (see AxisRays).  Independent of the scan conversion that chooses the sample points, and so
-/// can check it.  Keeps a reference to the mesh.  Immutable after construction; queries from several threads
-/// are safe.
+/// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by a ray to the
+/// nearer side of its box, along the axis on which the fewest triangles lie behind each other (see AxisRays).  Independent of
+/// the scan conversion that chooses the sample points, and so can check it.  Keeps a reference to the mesh.  Immutable after
+/// construction; queries from several threads are safe.
 class SolidMembership {
  public:
   /// @param mesh closed, outward-oriented.
-  explicit SolidMembership(const Mesh& mesh) : rays_(mesh) {}
+  explicit SolidMembership(const Mesh& mesh);
 
   /// Whether the surface winds round q at least once, or does so round one of the eight points at
   /// +-`tolerance` from q along each axis: a sample point on the surface belongs to the solid.
@@ -29,9 +30,11 @@ class SolidMembership {
   }
 
  private:
-  int winding_number(const Vec3& q) const { return rays_.shoot(q, 0, true).winding; }
+  int winding_number(const Vec3& q) const;
 
   AxisRays rays_;
+  Box box_;
+  int axis_ = 0;
 };
 
 }  // namespace affskel::core
