@@ -251,9 +251,9 @@ void find_radii(const Solid& solid, const Lattice& lattice, std::span<const std:
   const double volume = solid.scaled(solid.volume);
   const std::vector<double> tube = slice_radii({places, lines, curve.slice, balls, volume});
   const LimbSections sections(solid.mesh);
-  const std::vector<double> area =
-      section_sizes(places, balls, lines,
-                    [&](const Vec3& at, const Vec3& across, double) { return sections.area(at, across); });
+  const std::vector<double> area = section_sizes(
+      places, balls, lines,
+      [&](const Vec3& at, const Vec3& across, double ball) { return sections.area(at, across, ball); });
   curve.radius = limb_radii({lines, curve.share, curve.slice, tube, area, in_joint, volume});
   for (double& radius : curve.radius) radius *= solid.scale();
 }

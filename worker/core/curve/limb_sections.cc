@@ -130,7 +130,16 @@ LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double ball)
   return {place + (1 / squares) * moment, std::sqrt(squares / static_cast<double>(kRays))};
 }
 
-double LimbSections::area(const Vec3& place, const Vec3& across) const {
+// Outlines about a place lie within each other: one that is whole and near has none of those within that are not.
+double LimbSections::area(const Vec3& place, const Vec3& across, double ball) const {
+  for (const double balls : {kSeen, kSeen * kSeen}) {
+    const double found = least_outline(Box{place, place}.widened(balls * ball), place, across);
+    if (found > 0) return found;
+  }
+  return least_outline(kEverywhere, place, across);
+}
+
+double LimbSections::least_outline(const Box& round, const Vec3& place, const Vec3& across) const {
   const Vec3 u = unit_beside(across), v = cross(across, u);
   struct Side {
     std::array<Segment, 2> edges;
@@ -139,7 +148,7 @@ double LimbSections::area(const Vec3& place, const Vec3& across) const {
   };
   std::vector<Side> sides;
   std::vector<Segment> edges;
-  cut(kEverywhere, place, across, [&](const auto& ends, const auto& of) {
+  cut(round, place, across, [&](const auto& ends, const auto& of) {
     const double a = dot(ends[0], u), b = dot(ends[0], v), c = dot(ends[1], u), d = dot(ends[1], v);
     const double turn = a * d - b * c;
     Side side{of, 0.5 * turn};
@@ -148,21 +157,32 @@ double LimbSections::area(const Vec3& place, const Vec3& across) const {
     edges.insert(edges.end(), of.begin(), of.end());
   });
   std::sort(edges.begin(), edges.end());
+  const std::vector<Segment> all = edges;  // of an outline that is whole, each twice
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const auto number = [&](const Segment& edge) {
     return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
   };
   DisjointSets outlines(edges.size());
   for (const Side& side : sides) outlines.unite(number(side.edges[0]), number(side.edges[1]));
-  std::vector<Side> whole(edges.size());
+  struct Outline {
+    double area = 0;
+    int turns = 0;
+    bool is_whole = true;
+  };
+  std::vector<Outline> whole(edges.size());
   for (const Side& side : sides) {
-    Side& outline = whole[outlines.find(number(side.edges[0]))];
+    Outline& outline = whole[outlines.find(number(side.edges[0]))];
     outline.area += side.area;
     outline.turns += side.turns;
   }
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto end = std::upper_bound(begin, all.end(), *begin);
+    if ((end - begin) % 2 != 0) whole[outlines.find(number(*begin))].is_whole = false;
+    begin = end;
+  }
   double least = std::numeric_limits<double>::infinity();
-  for (const Side& outline : whole)
-    if (outline.turns > 0 && outline.area > 0) least = std::min(least, outline.area);
+  for (const Outline& outline : whole)
+    if (outline.turns > 0 && outline.area > 0 && outline.is_whole) least = std::min(least, outline.area);
   return std::isfinite(least) ? least : 0;
 }
 

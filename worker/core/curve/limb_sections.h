@@ -45,7 +45,8 @@ class LimbSections {
 
   /// The area of all that the plane through a place has of the solid round it, in whatever shape; what lies apart, as another
   /// limb, or within, as a cavity, does not count.  0 from outside.
-  double area(const Vec3& place, const Vec3& across) const;
+  /// @param ball about as large as the limb is thick: what is near is looked at first.
+  double area(const Vec3& place, const Vec3& across, double ball) const;
 
   /// @param u, v of the plane, unit vectors at right angles.
   /// @return of which no radius is more than kFlattest times another.
@@ -68,6 +69,7 @@ class LimbSections {
 
   template <class Visit>
   void cut(const Box& round, const Vec3& place, const Vec3& across, const Visit& visit) const;
+  double least_outline(const Box& round, const Vec3& place, const Vec3& across) const;
   double height_above(std::size_t ray, const Turn& p) const;  // on its left
   std::uint32_t rays_left_of(const Turn& p) const;            // a bit each: those that have it on their right
   double shortest_rays(const Vec3& place, double reach) const;

@@ -61,17 +61,17 @@ TEST(LimbSections, RaysAreNoLongerThanTwiceTheMiddleOne) {
 TEST(LimbSections, AnAreaIsThatOfAllOfTheSection) {
   const Mesh box = make_box(20, 1, 1);
   const Vec3 tilted = unit({0.5, 0, 1});
-  EXPECT_NEAR(LimbSections(box).area({10, 0.5, 0.5}, {0, 0, 1}), 20, 1e-9) << "longer than rays";
-  EXPECT_NEAR(LimbSections(box).area({3, 0.2, 0.9}, {1, 0, 0}), 1, 1e-9);
-  EXPECT_NEAR(LimbSections(box).area({10, 0.5, 0.5}, tilted), std::sqrt(5.), 1e-9);
-  EXPECT_EQ(LimbSections(box).area({10, 0.5, 1.5}, {1, 0, 0}), 0) << "outside";
+  EXPECT_NEAR(LimbSections(box).area({10, 0.5, 0.5}, {0, 0, 1}, 0.3), 20, 1e-9) << "longer than rays";
+  EXPECT_NEAR(LimbSections(box).area({3, 0.2, 0.9}, {1, 0, 0}, 0.3), 1, 1e-9);
+  EXPECT_NEAR(LimbSections(box).area({10, 0.5, 0.5}, tilted, 0.3), std::sqrt(5.), 1e-9);
+  EXPECT_EQ(LimbSections(box).area({10, 0.5, 1.5}, {1, 0, 0}, 0.3), 0) << "outside";
 }
 
 TEST(LimbSections, AnAreaHasNoPartOfWhatLiesApart) {
   const Mesh large = make_box(3, 3, 8), small = moved(make_box(1, 1, 1), {1, 1, 3.5});
   const Mesh hollow = joined(joined(large, reversed(small)), moved(make_box(2, 2, 8), {3.1, 0, 0}));
-  EXPECT_NEAR(LimbSections(hollow).area({0.5, 0.5, 4}, {0, 0, 1}), 9, 1e-9);
-  EXPECT_NEAR(LimbSections(hollow).area({4, 0.5, 4}, {0, 0, 1}), 4, 1e-9);
+  EXPECT_NEAR(LimbSections(hollow).area({0.5, 0.5, 4}, {0, 0, 1}, 0.3), 9, 1e-9);
+  EXPECT_NEAR(LimbSections(hollow).area({4, 0.5, 4}, {0, 0, 1}, 0.3), 4, 1e-9);
 }
 
 TEST(LimbSections, AnEllipseIsFound) {
