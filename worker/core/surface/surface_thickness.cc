@@ -1,6 +1,7 @@
 #include "core/surface/surface_thickness.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -47,23 +48,31 @@ class Ways {
   }
 
  private:
+  struct Crossing {
+    double way;
+    bool is_exit;
+    bool operator<(const Crossing& other) const { return way < other.way; }
+  };
+
   // How far a way from the surface is within the solid, at most `most`.  It enters through the triangle that it begins on.
   double way_out(const Vec3& from, const Vec3& inward, double most) const {
-    struct Crossing {
-      double way;
-      int winding;  // what the way gains there
-      bool operator<(const Crossing& other) const { return way < other.way; }
-    };
+    const double slack = kSlack * most;
     std::vector<Crossing> crossings;
-    triangles_.visit(WayQuery{from, inward, kSlack * most, most}, [&](std::uint32_t t) {
+    triangles_.visit(WayQuery{from, inward, slack, most}, [&](std::uint32_t t) {
       const std::optional<double> way = crossing_along(solid_, solid_.triangles[t], from, inward);
-      if (way && *way > -kSlack * most)
-        crossings.push_back({*way, dot(twice_area(solid_, solid_.triangles[t]), inward) > 0 ? -1 : 1});
+      if (way && *way > -slack)
+        crossings.push_back({*way, dot(twice_area(solid_, solid_.triangles[t]), inward) > 0});
     });
     std::sort(crossings.begin(), crossings.end());
     int winding = 0;
-    for (const Crossing& crossing : crossings)
-      if ((winding += crossing.winding) <= 0) return crossing.way;
+    for (auto at = crossings.begin(); at != crossings.end();) {
+      // At an edge both of its triangles are crossed, which counts once; where solids touch, the way goes on.
+      std::array<int, 2> sides{};  // enters, leaves
+      const double way = at->way;
+      for (; at != crossings.end() && at->way <= way + slack; ++at) sides[at->is_exit] = 1;
+      winding += sides[0] - sides[1];
+      if (winding <= 0) return way;
+    }
     return most;
   }
 

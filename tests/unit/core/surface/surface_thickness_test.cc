@@ -90,23 +90,40 @@ TEST(SurfaceThickness, OutwardWaysGiveTheDistance) {
   }
 }
 
-// Two plates, 2 thick, a gap of 0.5 apart, and a skeleton in the upper one alone: from below the lower one the way leaves
-// that before.  Where the plates cross it goes on.
+// Two plates, 2 thick, a gap of 0.5 apart, touching, or crossing, and a skeleton in the upper one alone: from below the lower
+// one the way leaves that before it comes there only where there is a gap.
 TEST(SurfaceThickness, EndsWhereTheWayLeavesTheSolid) {
-  for (const double gap : {0.5, -0.5}) {
+  for (const double gap : {0.5, 0., -0.5}) {
     const Mesh plate = make_box(8, 8, 2, 8), mesh = joined(plate, moved(plate, {0, 0, 2 + gap}));
     const Solid plates = make_solid(mesh);
     const Mesh middle{{{0, 0, 3 + gap}, {8, 0, 3 + gap}, {8, 8, 3 + gap}}, {{0, 1, 2}}};
     const std::vector<double> found =
         thickness(plates, middle, std::vector<Vec3>(mesh.triangles.size(), {0.6, 0, 0.8}));
     const Vec3 below{4, 2, 0};
+    int count = 0;
     for (std::size_t t = 0; t < found.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
       const Vec3 at = (1. / 3) * (mesh.points[a] + (mesh.points[b] + mesh.points[c]));
       if (norm(at - below) > 1) continue;
       EXPECT_NEAR(found[t], gap > 0 ? 3 + gap : (3 + gap) / 0.8, 0.05);
+      ++count;
     }
+    EXPECT_GE(count, 4);
   }
+}
+
+// Ways from a coarse box's edges: the finer surface has triangles that lie on them.
+TEST(SurfaceThickness, BeginsOnAnEdgeOfTheSolid) {
+  const Solid box = make_solid(make_box(8, 8, 2));
+  const Mesh surface{{in_solid(box, {3, 3, 0}), in_solid(box, {4, 5, 0}), in_solid(box, {5, 4, 0})},
+                     {{0, 1, 2}}};
+  const Mesh above{{in_solid(box, {0, 0, 4.5}), in_solid(box, {8, 0, 4.5}), in_solid(box, {8, 8, 4.5})},
+                   {{0, 1, 2}}};
+  ThicknessOptions options;
+  options.near = 0.02 / box.scale();
+  const std::vector<Vec3> tilted{{0.6, 0, 0.8}};
+  EXPECT_NEAR(surface_thickness(box, surface, above, tilted, options)[0] * box.scale(), 4.5, 1e-3)
+      << "it leaves the box 2 up";
 }
 
 TEST(SurfaceThickness, DoesNotDependOnThreadsAndStops) {
