@@ -34,15 +34,23 @@ TEST(SolidMembership, AgreesWithSolidAngles) {
   expect_like_solid_angles(joined(make_box(1, 1, 1), moved(make_box(1, 1, 1), {-2, -2, -2})), 2.5);
 }
 
-// Rays along +x from here run through vertices, along edges and within faces of the box.
+// Rays along each axis from here run through vertices, along edges and within faces of a box; others beside it make the
+// fewest lie along x, y and z.
 TEST(SolidMembership, IsNotConfusedByEdgesAndVertices) {
-  const Mesh box = make_box(4, 4, 4, 4);
-  const SolidMembership solid(box);
-  for (int i = -1; i <= 5; ++i) {
-    for (int j = 1; j <= 3; ++j) {
-      for (int k = 1; k <= 3; ++k) {
-        const Vec3 q{i + 0.5, static_cast<double>(j), static_cast<double>(k)};
-        EXPECT_EQ(solid.contains(q), i >= 0 && i < 4) << i << " " << j << " " << k;
+  const Mesh box = make_box(4, 4, 4, 4), two = joined(box, moved(box, {8, 0, 0}));
+  for (const Mesh& mesh : {box, two, joined(two, moved(box, {0, 8, 0}))}) {
+    const SolidMembership solid(mesh);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = -1; i <= 4; ++i) {
+        for (int j = 1; j <= 3; ++j) {
+          for (int k = 1; k <= 3; ++k) {
+            Vec3 q;
+            q[axis] = i + 0.5;
+            q[(axis + 1) % 3] = j;
+            q[(axis + 2) % 3] = k;
+            EXPECT_EQ(solid.contains(q), i >= 0 && i < 4) << axis << ": " << i << " " << j << " " << k;
+          }
+        }
       }
     }
   }
