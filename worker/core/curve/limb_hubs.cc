@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/base/disjoint_sets.h"
 #include "core/base/median.h"
 #include "core/base/plain_math.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/curve/parted_lines.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/lattice_points.h"
 #include "core/mesh/polylines.h"
@@ -17,132 +17,41 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kSudden = 0.4;    // of the way along a line: what a limb's radius grows by where it ends
 constexpr double kThick = 1.55;    // times as thick as all its limbs but the thickest
 constexpr double kThicker = 1.4;   // times as thick as the thickest
 constexpr double kGrown = 1.1;     // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.74;   // of the ellipsoid with its moments: a network fills less
 constexpr double kAsFilled = 0.9;  // times what those that it joins fill of theirs
 constexpr double kTaken =
-    1.5;                      // times what has grown, with what of limbs that it would grow along lies in it
-constexpr double kPlate = 2;  // times as wide as thick: what is nearest to a line makes no tube
+    1.5;  // times what has grown, with what of limbs that it would grow along lies in it
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
 constexpr double kBar = 2.25;    // times as long as wide: a limb, which grows where it turns a corner
 
 constexpr double kPerBall = 0.75 / std::numbers::pi;  // a ball's cubed radius, of its volume
-
-// Of places, each as much.
-struct HubMoments {
-  double count = 0;
-  Vec3 first;
-  Matrix3 second{};
-
-  void add(const HubMoments& other) {
-    count += other.count;
-    first = first + other.first;
-    second = second + other.second;
-  }
-  Vec3 centre() const { return (1 / count) * first; }
-  Matrix3 about_centre() const { return second + -1.0 * outer(first, centre()); }
-};
-
-struct HubLimb {
-  std::vector<std::uint32_t> line;
-  double size;
-  double length;
-  bool runs_out = false;  // a hub would grow along it to its end
-};
 
 class FindHubs {
  public:
   explicit FindHubs(const LimbHubsInput& input)
       : in_(input),
         ends_(ends_of(input.places.size(), input.lines)),
-        limb_(input.places.size(), kNone),
-        is_body_(input.places.size(), 0),
         is_tried_(input.places.size(), 0),
-        bodies_(input.places.size()),
         moments_(input.places.size()),
         stop_(input.context),
         result_{{}, std::vector<std::uint32_t>(input.places.size(), kNone)} {}
 
   LimbHubs run() {
     each_point([&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
-    for (const auto& line : in_.lines) part(line);
+    parted_ = parted_lines({in_.places, in_.lines, in_.radius, moments_, in_.lattice.spacing});
+    runs_out_.resize(parted_.limbs.size());
     join_what_touches();
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (is_body_[v] && bodies_.find(v) == v) add_hub(v);
+      if (parted_.is_body[v] && parted_.bodies.find(v) == v) add_hub(v);
     number_hubs();
     return std::move(result_);
   }
 
  private:
   bool is_joint(std::uint32_t v) const { return ends_[v] > 2; }
-  double way(std::uint32_t a, std::uint32_t b) const { return norm(in_.places[a] - in_.places[b]); }
-
-  // How thick a line is in the middle of its vertices.
-  double size_of(const std::vector<std::uint32_t>& line) const {
-    std::vector<double> radii;
-    for (const std::uint32_t v : line)
-      if (!is_joint(v)) radii.push_back(in_.radius[v]);
-    return radii.empty() ? 0 : median(std::move(radii));
-  }
-
-  // How much wider than thick what is nearest to a line is, across it: in its slices, which are thinner.
-  double flatness(std::span<const std::uint32_t> line) const {
-    Matrix3 across{};
-    double count = 0;
-    for (const std::uint32_t v : line) {
-      if (is_joint(v) || moments_[v].count == 0) continue;
-      across = across + moments_[v].about_centre();
-      count += moments_[v].count;
-    }
-    const auto spread = symmetric_eigen(across + count * cell() * kIdentity3).values;
-    return count > 0 ? std::sqrt(spread[0] / spread[1]) : 1;
-  }
-
-  // Whether a size grows suddenly towards the front of a line, at its n-th vertex, over as much as it is beyond.
-  bool grows_at(const std::vector<std::uint32_t>& line, std::size_t n, std::span<const double> size) const {
-    double length = 0;
-    std::size_t k = n;
-    for (; k < line.size() / 2 && length < size[line[k]]; ++k) length += way(line[k], line[k + 1]);
-    return size[line[n]] - size[line[k]] > kSudden * length;
-  }
-
-  // How many of a line's first vertices are no limb's; from its middle on, by what it grows over a radius.
-  std::size_t before_limb(const std::vector<std::uint32_t>& line) const {
-    for (std::size_t n = line.size() / 2; n > 1; --n)
-      if (grows_at(line, n - 1, in_.radius)) return n;
-    return 1;
-  }
-
-  std::span<const std::uint32_t> without_bodies(const std::vector<std::uint32_t>& line) const {
-    const std::size_t first = before_limb(line),
-                      last = before_limb(std::vector<std::uint32_t>(line.rbegin(), line.rend()));
-    return first + last < line.size() ? std::span(line).subspan(first, line.size() - first - last) : line;
-  }
-
-  // What of a line is a limb's, and what is not.
-  void part(std::vector<std::uint32_t> line) {
-    const std::uint32_t a = line.front(), b = line.back();
-    const double length = length_of(in_.places, line);
-    const double size = size_of(line);
-    const bool is_link = is_joint(a) && is_joint(b);
-    if (is_link && (length < 2 * size || (a != b && flatness(without_bodies(line)) > kPlate)))
-      return give_body(line, line.size());
-    for (const std::uint32_t v : line)
-      if (!is_joint(v)) limb_[v] = static_cast<std::uint32_t>(limbs_.size());
-    limbs_.push_back({line, size, length});
-    for (int end = 0; end < 2; ++end, std::reverse(line.begin(), line.end()))
-      if (is_joint(line[0])) give_body(line, before_limb(line));
-  }
-
-  void give_body(const std::vector<std::uint32_t>& line, std::size_t count) {
-    for (std::size_t n = 0; n < count; ++n) {
-      is_body_[line[n]] = 1;
-      bodies_.unite(line[n], line[0]);
-    }
-  }
 
   double cell() const { return in_.lattice.spacing * in_.lattice.spacing / 12; }
 
@@ -160,7 +69,7 @@ class FindHubs {
     std::uint32_t before = kNone;
     each_point([&](const Vec3& at, std::uint32_t v) {
       const bool is_next = before != kNone && norm(at - last) < 1.1 * in_.lattice.spacing;
-      if (is_next && is_body_[v] && is_body_[before]) bodies_.unite(v, before);
+      if (is_next && parted_.is_body[v] && parted_.is_body[before]) parted_.bodies.unite(v, before);
       before = v;
       last = at;
     });
@@ -170,9 +79,9 @@ class FindHubs {
   // none with them, it grows beside them.  What held a body, and was none, is what would grow from that.
   void add_hub(std::uint32_t body) {
     std::vector<std::uint32_t> own;
-    HubMoments all;
+    PlaceMoments all;
     for (std::uint32_t v = body; v < ends_.size(); ++v) {
-      if (!is_body_[v] || bodies_.find(v) != body || result_.of[v] != kNone) continue;
+      if (!parted_.is_body[v] || parted_.bodies.find(v) != body || result_.of[v] != kNone) continue;
       own.push_back(v);
       all.add(moments_[v]);
     }
@@ -185,10 +94,10 @@ class FindHubs {
   }
 
   // @param joins whether it may join others; false then where it has, and was none.
-  bool grow_hub(std::span<const std::uint32_t> own, const HubMoments& all, bool& joins) {
+  bool grow_hub(std::span<const std::uint32_t> own, const PlaceMoments& all, bool& joins) {
     const std::vector<std::uint32_t> before = result_.of;
     const auto number = static_cast<std::uint32_t>(result_.hubs.size());
-    for (HubLimb& limb : limbs_) limb.runs_out = false;
+    std::fill(runs_out_.begin(), runs_out_.end(), 0);
     Growth growth{number, joins};
     do {
       result_.of = before;
@@ -243,7 +152,7 @@ class FindHubs {
   struct Growth {
     std::uint32_t number;
     bool joins;  // hubs that lie in it
-    HubMoments all = {};
+    PlaceMoments all = {};
     LimbHub hub = {};
     bool has_joined = false;
     double least_filled = kFilled;  // of its ellipsoid
@@ -261,8 +170,8 @@ class FindHubs {
       stop_.did(8 * ends_.size());
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
         if (result_.of[v] != kNone || growth.hub.outside(in_.places[v]) >= 0) continue;
-        if (limb_[v] != kNone && limbs_[limb_[v]].runs_out) continue;
-        if (is_long_end(v, growth.all.count)) runs_out = limbs_[limb_[v]].runs_out = true;
+        if (parted_.limb[v] != kNone && runs_out_[parted_.limb[v]] != 0) continue;
+        if (is_long_end(v, growth.all.count)) runs_out_[parted_.limb[v]] = runs_out = true;
         result_.of[v] = growth.number;
         growth.all.add(moments_[v]);
         grows = true;
@@ -290,7 +199,8 @@ class FindHubs {
   }
 
   bool is_long_end(std::uint32_t v, double count) const {
-    return ends_[v] == 1 && limb_[v] != kNone && limbs_[limb_[v]].length > 2 * radius_of(count);
+    return ends_[v] == 1 && parted_.limb[v] != kNone &&
+           parted_.limbs[parted_.limb[v]].length > 2 * radius_of(count);
   }
 
   // The middle of a ring or of what is bent lies outside the solid.  Parts it from its limbs, too.
@@ -306,12 +216,12 @@ class FindHubs {
   bool holds_no_limb(const Growth& growth) {
     for (std::uint32_t v = 0; v < ends_.size(); ++v) {
       const bool is_outside = growth.hub.outside(in_.places[v]) >= 0;
-      if (is_outside && limb_[v] != kNone && result_.of[v] == growth.number) result_.of[v] = kNone;
+      if (is_outside && parted_.limb[v] != kNone && result_.of[v] == growth.number) result_.of[v] = kNone;
       if (is_outside || result_.of[v] != kNone) continue;
       if (is_long_end(v, growth.all.count)) return false;
       result_.of[v] = growth.number;
     }
-    for (HubLimb& limb : limbs_)
+    for (PartedLimb& limb : parted_.limbs)
       for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
         if (result_.of[limb.line[0]] == growth.number) part_by_sections(limb.line, growth.number);
     return true;
@@ -324,7 +234,7 @@ class FindHubs {
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (is_hubs(v)) count += moments_[v].count;
     std::array<double, 2> thickest{};
-    for (const HubLimb& limb : limbs_) {
+    for (const PartedLimb& limb : parted_.limbs) {
       if (!is_hubs(limb.line.front()) && !is_hubs(limb.line.back())) continue;
       if (std::all_of(limb.line.begin(), limb.line.end(), is_hubs)) continue;
       thickest[1] = std::max(thickest[1], std::min(limb.size, thickest[0]));
@@ -352,7 +262,7 @@ class FindHubs {
       return length_of(in_.places, std::span(line).first(first + 1)) - begin < own;
     };
     while (first < line.size() / 2 && result_.of[line[first]] == kNone && is_near() &&
-           grows_at(line, first, in_.section))
+           grows_at(in_.places, line, first, in_.section))
       result_.of[line[first++]] = number;
     while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) result_.of[line[--first]] = kNone;
   }
@@ -369,20 +279,18 @@ class FindHubs {
   }
 
   // The mean square of a place in a ball, along an axis, is a fifth of the radius', in a cube a twelfth of the edge's.
-  void fit(const HubMoments& all, LimbHub& hub) const {
+  void fit(const PlaceMoments& all, LimbHub& hub) const {
     hub.centre = all.centre();
     const Matrix3 spread = (1 / all.count) * all.about_centre() + cell() * kIdentity3;
     hub.form = (1 / (5 * kGrown * kGrown)) * inverse_transposed(spread);
   }
 
   const LimbHubsInput& in_;
-  std::vector<std::uint32_t> ends_;  // of lines, per vertex
-  std::vector<std::uint32_t> limb_;  // per vertex: that its line is; kNone of a joint
-  std::vector<char> is_body_;        // per vertex: no limb's
-  std::vector<char> is_tried_;       // per vertex: held by what has grown, and was no hub
-  DisjointSets bodies_;
-  std::vector<HubLimb> limbs_;
-  std::vector<HubMoments> moments_;  // per vertex: of its points
+  std::vector<std::uint32_t> ends_;    // of lines, per vertex
+  std::vector<char> is_tried_;         // per vertex: held by what has grown, and was no hub
+  std::vector<PlaceMoments> moments_;  // per vertex: of its points
+  PartedLines parted_;
+  std::vector<char> runs_out_;  // per limb: a hub would grow along it to its end
   StopCheck stop_;
   std::vector<double> found_filled_;  // per hub
   LimbHubs result_;

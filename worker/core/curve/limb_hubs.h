@@ -40,15 +40,13 @@ struct LimbHubsInput {
   ExecutionContext* context = nullptr;     ///< asked whether to stop
 };
 
-/// Of what is nearest to a line, a limb has what makes about a tube.  From its middle on towards a joint it ends
-/// where that suddenly grows, and a link or loop that is shorter than thick is none, nor a link whose slices are
-/// twice as wide as thick.  From what no limb has, as far as it hangs together in the solid, with a joint, a hub grows: as
-/// large as an ellipsoid with its moments, it takes what is nearest to lines in that, too, and so on, until it holds no
-/// more, but not along a limb that is longer than it is thick, to its free end; those that both hold the place between their
-/// middles are one, if they fill one ellipsoid about as well.  It is a hub where a ball as large is 1.4 times as thick as the thickest limb there and 1.55 times as
-/// the others, unless it fills less than 0.74 of the ellipsoid, a network, is 2.25 times as long as wide, a limb, or has its
-/// middle outside the solid, a ring.  Its limbs begin where they leave the ellipsoid, or within, where their sections are
-/// as beyond, or beyond, where these suddenly grow.
+/// From what no limb has (see parted_lines()), as far as it hangs together in the solid, with a joint, a hub grows: as large as
+/// an ellipsoid with its moments, it takes what is nearest to lines in that, too, and so on, until it holds no more, but not
+/// along a limb that is longer than it is thick, to its free end; those that both hold the place between their middles are
+/// one, if they fill one ellipsoid about as well.  It is a hub where a ball as large is 1.4 times as thick as the thickest
+/// limb there and 1.55 times as the others, unless it fills less than 0.74 of the ellipsoid, a network, is 2.25 times as
+/// long as wide, a limb, or has its middle outside the solid, a ring.  Its limbs begin where they leave the ellipsoid, or
+/// within, where their sections are as beyond, or beyond, where these suddenly grow.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core
