@@ -203,26 +203,6 @@ TEST(LimbHubs, AreAsWideAsAPlate) {
   expect_one_hub_of_two_joints(Cube({12, 12, 2}), {-2.5, 0, 0}, 50, 2.4);
 }
 
-// A handle on a plate that has most of what is nearest to its line at both of its ends.
-TEST(LimbHubs, LeaveAHandleWhoseLineBeginsInThem) {
-  Cube plate({12, 12, 2});
-  const std::uint32_t one = plate.add(plate.middle + Vec3{-3, 0, 0}, 2),
-                      other = plate.add(plate.middle + Vec3{3, 0, 0}, 2);
-  plate.radius.assign(2, 2.4);
-  plate.go_out(one, {{-0.1, 0, 0}, {0, -0.1, 0}}, 1.5, 1.5, 4);
-  plate.go_out(other, {{0.1, 0, 0}, {0, 0.1, 0}}, 1.5, 1.5, 4);
-  const std::uint32_t up = plate.go(one, {0, 0, 0.1}, 40, 0.5), over = plate.go(up, {0.1, 0, 0}, 60, 0.5);
-  plate.join(plate.go(over, {0, 0, -0.1}, 39, 0.5), other);
-  plate.radius.resize(plate.places.size(), 0.5);
-  const auto begin = std::size_t(plate.places.size() - 139);
-  for (std::size_t n = 0; n < 12; ++n) plate.radius[begin + n] = plate.radius[begin + 138 - n] = 2.4;
-  const LimbHubs found = plate.found();
-  ASSERT_EQ(found.hubs.size(), 1U);
-  EXPECT_EQ(found.of[one], 0U);
-  EXPECT_EQ(found.of[other], 0U);
-  EXPECT_EQ(found.at(over), nullptr);
-}
-
 // A palm, 8 wide and 2 thick, with four fingers, and a forearm as thick as it, along which its ellipsoid would grow on and on.
 TEST(LimbHubs, DoNotGrowAlongALimb) {
   Cube palm(joined(moved(make_box(8, 8, 2), {0, 8, 0}), moved(make_box(4.6, 8.5, 2), {1.7, 0, 0})));
