@@ -62,7 +62,7 @@ v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality) {
 void add_advice(core::Advice advice, v1::SkeletonQuality& message) {
   if (advice.text.empty()) return;
   if (!message.advice().empty()) {
-    advice.text[0] = static_cast<char>(std::toupper(advice.text[0]));
+    advice.text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(advice.text[0])));
     *message.mutable_advice() += ' ';
   }
   *message.mutable_advice() += advice.text;

@@ -31,7 +31,7 @@ void set_place(const core::Vec3& place, double size, v1::CoarsePlace& message);
 
 v1::SkeletonQuality quality_message(const core::SkeletonQuality& quality);
 
-/// Beside what is advised already.
+/// Adds its sentences and settings to those that the message has; nothing of one without text.
 void add_advice(core::Advice advice, v1::SkeletonQuality& message);
 
 }  // namespace affskel::worker

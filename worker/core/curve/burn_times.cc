@@ -2,11 +2,11 @@
 // comes to the vertex in it, or once it is the last that does not burn at one of the edges there.
 #include "core/curve/burn_times.h"
 
-#include <algorithm>
 #include <functional>
 #include <limits>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 #include "core/base/disjoint_sets.h"
 
@@ -15,24 +15,29 @@ namespace {
 
 class Fire {
  public:
-  Fire(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left)
+  Fire(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left, ExecutionContext* context)
       : sheet_(sheet),
         edges_(edges),
         left_(left),
+        stop_(context),
         fans_(3 * sheet.triangles.size()),
+        burns_(3 * sheet.triangles.size(), 0),
         times_(3 * sheet.triangles.size(), std::numeric_limits<double>::infinity()) {}
 
   std::vector<double> run() {
     join_fans();
     for (std::uint32_t v = 0; v < sheet_.vertices.size(); ++v) spread(v, 0);
     while (!front_.empty()) {
+      stop_.did(20);
       const auto [time, v, fan] = front_.top();
       front_.pop();
-      if (burns(fan)) continue;
+      if (burns_[fan]) continue;
       light(fan, v, time);
       spread(v, time);
     }
-    return times();
+    for (std::uint32_t corner = 0; corner < times_.size(); ++corner)
+      times_[corner] = times_[fans_.find(corner)];
+    return std::move(times_);
   }
 
  private:
@@ -40,7 +45,6 @@ class Fire {
     const Triangle& corners = sheet_.triangles[t];
     return fans_.find(3 * t + (corners[0] == v ? 0 : corners[1] == v ? 1 : 2));
   }
-  bool burns(std::uint32_t fan) const { return times_[fan] < std::numeric_limits<double>::infinity(); }
 
   void join_fans() {
     std::vector<std::uint32_t> there;
@@ -60,7 +64,7 @@ class Fire {
       for (const std::uint32_t e : edges_.round[v]) {
         std::uint32_t count = 0, last = 0;
         for (const std::uint32_t t : edges_.triangles[e]) {
-          if (!left_[t] || burns(fan(t, v))) continue;
+          if (!left_[t] || burns_[fan(t, v)]) continue;
           ++count;
           last = fan(t, v);
         }
@@ -72,24 +76,18 @@ class Fire {
   }
 
   void light(std::uint32_t burning, std::uint32_t v, double time) {
+    burns_[burning] = 1;
     times_[burning] = time;
-    for_each_triangle(edges_, left_, v, [&](std::uint32_t from) {
-      if (fan(from, v) != burning) return;
+    for (const std::uint32_t from : edges_.about[v]) {
+      if (!left_[from] || fan(from, v) != burning) continue;
       for_each_step(sheet_, edges_, left_, from, v, [&](std::uint32_t to, std::uint32_t t) {
         const std::uint32_t next = fan(t, to);
-        const double way = norm(sheet_.vertices[v].position - sheet_.vertices[to].position);
-        if (!burns(next)) front_.push({time + way, to, next});
+        const double there = time + norm(sheet_.vertices[v].position - sheet_.vertices[to].position);
+        if (burns_[next] || !(there < times_[next])) return;
+        times_[next] = there;
+        front_.push({there, to, next});
       });
-    });
-  }
-
-  // Of vertices: when the last of their fans burns.
-  std::vector<double> times() {
-    std::vector<double> result(sheet_.vertices.size(), 0);
-    for (std::uint32_t t = 0; t < sheet_.triangles.size(); ++t)
-      for (const std::uint32_t v : sheet_.triangles[t])
-        if (left_[t]) result[v] = std::max(result[v], times_[fan(t, v)]);
-    return result;
+    }
   }
 
   using Arrival = std::tuple<double, std::uint32_t, std::uint32_t>;  // when, at which vertex, in which fan
@@ -97,15 +95,18 @@ class Fire {
   const SheetMesh& sheet_;
   const SheetEdges& edges_;
   std::span<const char> left_;
+  StopCheck stop_;
   DisjointSets fans_;          // of corners of triangles
-  std::vector<double> times_;  // per fan, by its first corner
+  std::vector<char> burns_;    // per fan, by its first corner
+  std::vector<double> times_;  // likewise: the earliest known
   std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> front_;
 };
 
 }  // namespace
 
-std::vector<double> burn_times(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left) {
-  return Fire(sheet, edges, left).run();
+std::vector<double> burn_times(const SheetMesh& sheet, const SheetEdges& edges, std::span<const char> left,
+                               ExecutionContext* context) {
+  return Fire(sheet, edges, left, context).run();
 }
 
 }  // namespace affskel::core

@@ -53,8 +53,6 @@ class FindHubs {
  private:
   bool is_joint(std::uint32_t v) const { return ends_[v] > 2; }
 
-  double cell() const { return in_.lattice.spacing * in_.lattice.spacing / 12; }
-
   template <class Visit>
   void each_point(const Visit& visit) {
     for_each_point(in_.lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
@@ -143,7 +141,9 @@ class FindHubs {
     result_.hubs = std::move(hubs);
   }
 
-  double volume_of(double count) const { return 12 * cell() * in_.lattice.spacing * count; }
+  double volume_of(double count) const {
+    return in_.lattice.spacing * in_.lattice.spacing * in_.lattice.spacing * count;
+  }
   double radius_of(double count) const {  // of a ball
     return count > 0 ? cube_root(kPerBall * volume_of(count)) : 0;
   }
@@ -281,7 +281,8 @@ class FindHubs {
   // The mean square of a place in a ball, along an axis, is a fifth of the radius', in a cube a twelfth of the edge's.
   void fit(const PlaceMoments& all, LimbHub& hub) const {
     hub.centre = all.centre();
-    const Matrix3 spread = (1 / all.count) * all.about_centre() + cell() * kIdentity3;
+    const Matrix3 spread =
+        (1 / all.count) * all.about_centre() + square_in_cell(in_.lattice.spacing) * kIdentity3;
     hub.form = (1 / (5 * kGrown * kGrown)) * inverse_transposed(spread);
   }
 

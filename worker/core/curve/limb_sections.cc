@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/basis.h"
@@ -66,7 +67,9 @@ void LimbSections::cut(const Box& round, const Vec3& place, const Vec3& across, 
       const std::size_t next = (k + 1) % 3;
       if ((height[k] < 0) == (height[next] < 0)) continue;
       const std::size_t end = height[k] < 0 ? 1 : 0;
-      ends[end] = corner[k] + (height[k] / (height[k] - height[next])) * (corner[next] - corner[k]);
+      // From the same corner for both triangles of an edge: ends that differ by rounding would leave a gap.
+      const auto [p, q] = triangle[k] < triangle[next] ? std::pair(k, next) : std::pair(next, k);
+      ends[end] = corner[p] + (height[p] / (height[p] - height[q])) * (corner[q] - corner[p]);
       edges[end] = ascending(triangle[k], triangle[next]);
       ++count;
     }
@@ -130,7 +133,8 @@ LimbSection LimbSections::at(const Vec3& place, const Vec3& across, double ball)
   return {place + (1 / squares) * moment, std::sqrt(squares / static_cast<double>(kRays))};
 }
 
-// Outlines about a place lie within each other: one that is whole and near has none of those within that are not.
+// Outlines about a place lie within each other, where the surface does not cross itself: one that lies in a box has none
+// within that leave it.
 double LimbSections::area(const Vec3& place, const Vec3& across, double ball) const {
   for (const double balls : {kSeen, kSeen * kSeen}) {
     const double found = least_outline(Box{place, place}.widened(balls * ball), place, across);
@@ -145,6 +149,7 @@ double LimbSections::least_outline(const Box& round, const Vec3& place, const Ve
     std::array<Segment, 2> edges;
     double area = 0;
     int turns = 0;  // about the place
+    bool is_within = true;
   };
   std::vector<Side> sides;
   std::vector<Segment> edges;
@@ -153,36 +158,28 @@ double LimbSections::least_outline(const Box& round, const Vec3& place, const Ve
     const double turn = a * d - b * c;
     Side side{of, 0.5 * turn};
     if ((b < 0) != (d < 0) && (turn > 0) == (d > b)) side.turns = d > b ? 1 : -1;
+    for (const Vec3& end : ends)
+      side.is_within = side.is_within && round.meets(Box{place + end, place + end});
     sides.push_back(side);
     edges.insert(edges.end(), of.begin(), of.end());
   });
   std::sort(edges.begin(), edges.end());
-  const std::vector<Segment> all = edges;  // of an outline that is whole, each twice
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const auto number = [&](const Segment& edge) {
     return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin());
   };
   DisjointSets outlines(edges.size());
   for (const Side& side : sides) outlines.unite(number(side.edges[0]), number(side.edges[1]));
-  struct Outline {
-    double area = 0;
-    int turns = 0;
-    bool is_whole = true;
-  };
-  std::vector<Outline> whole(edges.size());
+  std::vector<Side> whole(edges.size());
   for (const Side& side : sides) {
-    Outline& outline = whole[outlines.find(number(side.edges[0]))];
+    Side& outline = whole[outlines.find(number(side.edges[0]))];
     outline.area += side.area;
     outline.turns += side.turns;
-  }
-  for (auto begin = all.begin(); begin != all.end();) {
-    const auto end = std::upper_bound(begin, all.end(), *begin);
-    if ((end - begin) % 2 != 0) whole[outlines.find(number(*begin))].is_whole = false;
-    begin = end;
+    outline.is_within = outline.is_within && side.is_within;
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const Outline& outline : whole)
-    if (outline.turns > 0 && outline.area > 0 && outline.is_whole) least = std::min(least, outline.area);
+  for (const Side& outline : whole)
+    if (outline.turns > 0 && outline.area > 0 && outline.is_within) least = std::min(least, outline.area);
   return std::isfinite(least) ? least : 0;
 }
 
@@ -228,11 +225,13 @@ double LimbSections::shortest_rays(const Vec3& place, double reach) const {
 std::optional<Vec3> LimbSections::parted(const Vec3& a, const Vec3& b) const {
   const Vec3 way = b - a;
   double first = 1, last = 0;
+  if (way == Vec3{}) return std::nullopt;
+  const CrossedLine line(a, way);
   tree_.visit(WayQuery{a, way, kSlack * largest_component(way)}, [&](std::uint32_t t) {
-    const std::optional<double> part = crossing_along(surface_, surface_.triangles[t], a, way);
-    if (!part || !(*part >= 0 && *part <= 1)) return;
-    first = std::min(first, *part);
-    last = std::max(last, *part);
+    const auto crossing = line.with(surface_, surface_.triangles[t]);
+    if (!crossing || !(crossing->part >= 0 && crossing->part <= 1)) return;
+    first = std::min(first, crossing->part);
+    last = std::max(last, crossing->part);
   });
   if (last < first) return std::nullopt;
   return a + 0.5 * (first + last) * way;

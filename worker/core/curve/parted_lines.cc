@@ -50,8 +50,7 @@ class PartLines {
       across = across + in_.moments[v].about_centre();
       count += in_.moments[v].count;
     }
-    const double cell = in_.spacing * in_.spacing / 12;
-    const auto spread = symmetric_eigen(across + count * cell * kIdentity3).values;
+    const auto spread = symmetric_eigen(across + count * square_in_cell(in_.spacing) * kIdentity3).values;
     return count > 0 ? std::sqrt(spread[0] / spread[1]) : 1;
   }
 

@@ -26,6 +26,12 @@ struct PlaceMoments {
   Matrix3 about_centre() const { return second + -1.0 * outer(first, centre()); }
 };
 
+/// The mean square of a place in a cell of a lattice of cubes, along an axis through its middle.
+inline double square_in_cell(double spacing) {
+  return spacing * spacing / 12;
+}
+
+/// Lengths in one unit.
 struct PartedLinesInput {
   std::span<const Vec3> places;                       ///< per vertex
   std::span<const std::vector<std::uint32_t>> lines;  ///< see polylines(), by numbers in places
@@ -36,8 +42,8 @@ struct PartedLinesInput {
 
 struct PartedLimb {
   std::vector<std::uint32_t> line;  ///< whole
-  double size;                      ///< how thick it is: the middle one of the radii
-  double length;
+  double size = 0;                  ///< how thick it is: the middle one of the radii
+  double length = 0;
 };
 
 /// What of lines is a limb's, and what a body's.
@@ -49,7 +55,8 @@ struct PartedLines {
 };
 
 /// Of what is nearest to a line, a limb has what makes about a tube.  From its middle on towards a joint it ends where that
-/// suddenly grows.  A link or loop that is shorter than thick is no limb, nor a link whose slices are twice as wide as thick.
+/// suddenly grows.  A link or loop that is shorter than thick is no limb, nor a link whose slices, between where bodies end, are
+/// twice as wide as thick.
 PartedLines parted_lines(const PartedLinesInput& input);
 
 /// Whether a size suddenly grows towards the front of a line, at its n-th vertex, over as much as it is beyond.

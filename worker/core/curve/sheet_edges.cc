@@ -18,6 +18,7 @@ SheetEdges::SheetEdges(const SheetMesh& sheet) {
     of.push_back({number(t[0], t[1]), number(t[1], t[2]), number(t[2], t[0])});
   triangles = holders(edges.size(), of);
   round = holders(sheet.vertices.size(), edges);
+  about = holders(sheet.vertices.size(), sheet.triangles);
 }
 
 }  // namespace affskel::core

@@ -16,7 +16,9 @@ struct SheetEdges {
   std::vector<std::array<std::uint32_t, 3>> of;  ///< per triangle: from its k-th corner to the next
   Groups<std::uint32_t> triangles;               ///< per edge
   Groups<std::uint32_t> round;                   ///< per vertex: the edges that end there
+  Groups<std::uint32_t> about;                   ///< per vertex: the triangles there
 
+  /// @param sheet whose triangles have three corners each.
   explicit SheetEdges(const SheetMesh& sheet);
 
   std::uint32_t other_end(std::uint32_t edge, std::uint32_t v) const {
@@ -44,15 +46,6 @@ void for_each_step(const SheetMesh& sheet, const SheetEdges& edges, std::span<co
     for (const std::uint32_t to : sheet.triangles[beyond])
       if (to != far[0] && to != far[1]) visit(to, beyond);
   }
-}
-
-/// Calls visit(triangle) for those about a vertex that are left, for each as often as it has edges there.
-template <class Visit>
-void for_each_triangle(const SheetEdges& edges, std::span<const char> left, std::uint32_t v,
-                       const Visit& visit) {
-  for (const std::uint32_t e : edges.round[v])
-    for (const std::uint32_t t : edges.triangles[e])
-      if (left[t]) visit(t);
 }
 
 }  // namespace affskel::core

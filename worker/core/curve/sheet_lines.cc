@@ -27,6 +27,7 @@ constexpr double kStraight = 0.1;
 
 class Collapse {
  public:
+  Collapse(const Collapse&) = delete;  // members refer to others
   Collapse(const SheetMesh& sheet, std::span<const char> ends, ExecutionContext* context)
       : sheet_(sheet),
         context_(context),
@@ -90,24 +91,29 @@ class Collapse {
     return centre;
   }
 
-  // Per vertex: when it is eaten.
+  // Per corner of a triangle: when it is eaten.
   std::vector<double> times() const {
-    std::vector<double> result = burn_times(sheet_, all_, triangles_left_);
+    std::vector<double> result = burn_times(sheet_, all_, triangles_left_, context_);
     CheapestWays ways(starts_of_lines());
+    StopCheck stop(context_);
     ways.find([&](std::uint32_t v, const auto& go) {
+      stop.did(20);
       const Vec3& at = sheet_.vertices[v].position;
-      for_each_triangle(all_, triangles_left_, v, [&](std::uint32_t t) {
+      for (const std::uint32_t t : all_.about[v]) {
+        if (!triangles_left_[t]) continue;
         for_each_step(sheet_, all_, triangles_left_, t, v, [&](std::uint32_t to, std::uint32_t) {
           go(to, norm(at - sheet_.vertices[to].position), v);
         });
-      });
+      }
     });
-    for (std::size_t v = 0; v < result.size(); ++v)
-      if (std::isfinite(ways.cost[v])) result[v] -= kStraight * ways.cost[v];
+    for (std::size_t t = 0; t < sheet_.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const double way = ways.cost[sheet_.triangles[t][k]]; std::isfinite(way))
+          result[3 * t + k] -= kStraight * way;
     return result;
   }
 
-  // Ends, and where lines meet sheets: themselves.
+  // Per vertex: itself where it is an end, or a line meets a sheet, else kNone.
   std::vector<std::uint32_t> starts_of_lines() const {
     std::vector<char> is_start(stays_), on_sheet(stays_.size(), 0);
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -141,9 +147,14 @@ class Collapse {
     if (cofaces_[edge] != 1 || !edge_left_[edge]) return;
     for (const std::uint32_t t : triangles_of_[edge]) {
       if (!triangles_left_[t]) continue;
-      double sum = 0;
-      for (const std::uint32_t v : sheet_.triangles[t]) sum += time_[v];
-      front_.push({sum, time_[edges_[edge][0]] + time_[edges_[edge][1]], edge});
+      double all = 0, here = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = sheet_.triangles[t][k];
+        const double time = time_[3 * t + k];
+        all += time;
+        if (v == edges_[edge][0] || v == edges_[edge][1]) here += time;
+      }
+      front_.push({all, here, edge});
     }
   }
 
@@ -278,7 +289,7 @@ class Collapse {
   const Groups<std::uint32_t>&triangles_of_ = all_.triangles, &edges_round_ = all_.round;
   std::vector<char> edge_left_, triangles_left_;
   std::vector<std::uint32_t> cofaces_, edges_at_;  // that are left, per edge and per vertex
-  std::vector<double> time_;
+  std::vector<double> time_;                       // per corner of a triangle
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> front_;
   std::vector<std::uint32_t> gone_, centres_, opened_;
 };

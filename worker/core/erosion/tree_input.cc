@@ -106,8 +106,8 @@ void TreeInput::find_crossings(const Solid& solid) {
 }
 
 void TreeInput::find_nested(unsigned threads) {
-  constexpr double kOffset = 1e-7;  // far less than the spacing of any lattice
-  const AxisRays along_x(mesh, threads);
+  constexpr double kOffset = 1e-7;        // far less than the spacing of any lattice
+  const AxisRays along_x(mesh, threads);  // whatever the mesh: fields keep their bytes
   nested.resize(mesh.points.size());
   parallel_ranges(threads, nested.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {

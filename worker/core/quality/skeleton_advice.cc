@@ -234,7 +234,7 @@ Advice little_ridge_advice(double share, double threshold) {
 
 Advice stretched_limbs_advice(const Lattice& lattice) {
   const double stretch = stretch_of(lattice);
-  if (stretch < kOtherLimbs) return {};
+  if (!(stretch >= kOtherLimbs)) return {};
   return {
       "limbs are told in the lattice's frame, in which the solid is stretched " + base::rounded(stretch, 2) +
           " times as much one way as another: what is thin here may be too thick there to be a limb. In the "

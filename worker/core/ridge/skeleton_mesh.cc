@@ -29,9 +29,9 @@ constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest 
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
 constexpr double kThin = 2;           // a vertex moves freely about points farther from the surface, spacings
 constexpr int kLinePasses = 30;       // of ways and curves
-// A vertex goes to another sample point farther away than this, spacings.  It begins half-way between points, where
-// rounding would choose, so that a mapped mesh had other lines in the frame `affine`.
-constexpr double kHalf = 0.5 + 1e-6;
+// A vertex leaves its sample point for a nearer one once it is so far away, along an axis, in spacings.  It begins half-way
+// between points, where at 0.5 rounding would choose, so that a mapped mesh had other lines in the frame `affine`.
+constexpr double kLeaves = 0.5 + 1e-6;
 
 class Placing {
  public:
@@ -327,7 +327,7 @@ class Placing {
     Vec3& point = point_place_[v];
     Vec3 off = (1 / from_.lattice.spacing) * vertex.position - point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      while (std::abs(off[axis]) > kHalf) {
+      while (std::abs(off[axis]) > kLeaves) {
         const double step = off[axis] > 0 ? 1 : -1;
         const std::uint32_t next = complex_.neighbour(vertex.point, axis, step > 0 ? 2 : 0);
         if (next == kNone) break;

@@ -5,8 +5,10 @@
 namespace affskel::core {
 namespace {
 
-// Along which the lines through the box cross the fewest triangles, in the mean: those that one meets lie in the same place
-// on the plane across it.
+// Less than this many times as many are clearly fewer: rounding does not choose.
+constexpr double kFewer = 0.8;
+
+// Along which lines through the box cross the fewest triangles, in the mean.
 int axis_of_fewest(const Mesh& mesh, const Box& box) {
   Vec3 shadow;
   for (const Triangle& t : mesh.triangles) {
@@ -17,15 +19,14 @@ int axis_of_fewest(const Mesh& mesh, const Box& box) {
   const auto crossings = [&](int a) { return shadow[a] * sides[a]; };  // by the volume of the box
   int best = 0;
   for (int a = 1; a < 3; ++a)
-    if (crossings(a) < crossings(best)) best = a;
+    if (crossings(a) < kFewer * crossings(best)) best = a;
   return best;
 }
 
 }  // namespace
 
-SolidMembership::SolidMembership(const Mesh& mesh) : rays_(mesh), box_(box_of(mesh)) {
-  axis_ = axis_of_fewest(mesh, box_);
-}
+SolidMembership::SolidMembership(const Mesh& mesh)
+    : rays_(mesh), box_(box_of(mesh)), axis_(axis_of_fewest(mesh, box_)) {}
 
 int SolidMembership::winding_number(const Vec3& q) const {
   const bool upward = box_.high[axis_] - q[axis_] < q[axis_] - box_.low[axis_];

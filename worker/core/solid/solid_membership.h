@@ -9,8 +9,8 @@
 namespace affskel::core {
 
 /// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by a ray to the
-/// nearer side of its box, along the axis on which the fewest triangles lie behind each other (see AxisRays).  Independent of
-/// the scan conversion that chooses the sample points, and so can check it.  Keeps a reference to the mesh.  Immutable after
+/// nearer side of its box, along x, or another axis on which clearly fewer triangles lie behind each other (see AxisRays).
+/// What is exactly on the surface may be in or out.  Independent of the scan conversion that chooses the sample points, and so can check it.  Keeps a reference to the mesh.  Immutable after
 /// construction; queries from several threads are safe.
 class SolidMembership {
  public:
@@ -29,12 +29,13 @@ class SolidMembership {
     return false;
   }
 
- private:
+  /// How often the surface winds round q; of a place on it, what the ray leaves out or not.
   int winding_number(const Vec3& q) const;
 
+ private:
   AxisRays rays_;
   Box box_;
-  int axis_ = 0;
+  int axis_;
 };
 
 }  // namespace affskel::core

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 
+#include "core/base/basis.h"
+#include "core/base/unit.h"
 #include "core/mesh/mesh.h"
 
 // Rays against triangles, most of them parallel to an axis.  Seen along the axis, a triangle is a polygon in (u, v),
@@ -39,19 +42,44 @@ inline double distance_along(const Mesh& mesh, const Triangle& t, const Vec3& q,
   return a[axis] - ((q[u] - a[u]) * n[u] + (q[v] - a[v]) * n[v]) / n[axis] - q[axis];
 }
 
-/// Where a triangle, with its border, crosses a line in any direction.
-/// @return the part of `way` from there to it, of either sign; none where the line runs along it, or beside it.
-inline std::optional<double> crossing_along(const Mesh& mesh, const Triangle& t, const Vec3& from,
-                                            const Vec3& way) {
-  const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
-  const Vec3 out = cross(b - a, c - a);
-  const double steep = dot(out, way);
-  if (steep == 0) return std::nullopt;
-  const double part = dot(out, a - from) / steep;
-  const Vec3 at = from + part * way;
-  const auto is_left = [&](const Vec3& p, const Vec3& q) { return dot(cross(q - p, at - p), out) >= 0; };
-  if (!is_left(a, b) || !is_left(b, c) || !is_left(c, a)) return std::nullopt;
-  return part;
-}
+/// A line in any direction, against triangles.  Seen along it, each is a polygon about the line or not, by the same rule as
+/// in winding_round_line(): of a closed surface nothing is missed, and nothing crossed twice, at edges and vertices.
+class CrossedLine {
+ public:
+  /// @param way of any length > 0.
+  CrossedLine(const Vec3& from, const Vec3& way)
+      : from_(from), way_(way), u_(unit_beside(unit(way))), v_(unit(cross(way, u_))) {}
+
+  struct Crossing {
+    double part;  ///< of the way from where the line begins, of either sign
+    int leaves;   ///< 1 where the way leads out through the triangle, -1 where it leads in
+  };
+
+  std::optional<Crossing> with(const Mesh& mesh, const Triangle& t) const {
+    struct Seen {
+      double x, y;
+    };
+    std::array<Seen, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 to = mesh.points[t[k]] - from_;
+      corners[k] = {dot(to, u_), dot(to, v_)};
+    }
+    int leaves = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Seen &a = corners[k], &b = corners[(k + 1) % 3];
+      if ((a.y <= 0) == (b.y <= 0)) continue;
+      const bool up = a.y < b.y;
+      const Seen &low = up ? a : b, &high = up ? b : a;
+      if (low.x - low.y / (high.y - low.y) * (high.x - low.x) > 0) leaves += up ? 1 : -1;
+    }
+    const Vec3 out = twice_area(mesh, t);
+    const double steep = dot(out, way_);
+    if (leaves == 0 || steep == 0) return std::nullopt;
+    return Crossing{dot(out, mesh.points[t[0]] - from_) / steep, leaves};
+  }
+
+ private:
+  Vec3 from_, way_, u_, v_;
+};
 
 }  // namespace affskel::core

@@ -1,12 +1,12 @@
 #include "core/surface/surface_thickness.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/solid/solid_membership.h"
 #include "core/spatial/box_tree.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/ray_crossing.h"
@@ -25,13 +25,14 @@ class Ways {
   Ways(const Solid& solid, const Mesh& skeleton, const ThicknessOptions& options)
       : solid_(solid.mesh),
         triangles_(boxes_of(solid.mesh), options.threads),
+        membership_(solid.mesh),
         skeleton_(skeleton),
         near_(options.near) {}
 
   double thickness(const Vec3& from, const Vec3& inward) const {
     const Vec3 nearest = skeleton_.nearest_place(from);
     const double straight = norm(nearest - from);
-    if (dot(inward, inward) == 0) return straight;
+    if (dot(inward, inward) == 0 || straight <= near_) return straight;
     double least = straight, foot = dot(nearest - from, inward);
     const double most = way_out(from, inward, 2 * straight);
     for (double way = std::max(kStep * straight, near_); least > near_ && way < most;) {
@@ -48,29 +49,24 @@ class Ways {
   }
 
  private:
-  struct Crossing {
-    double way;
-    bool is_exit;
-    bool operator<(const Crossing& other) const { return way < other.way; }
-  };
-
-  // How far a way from the surface is within the solid, at most `most`.  It enters through the triangle that it begins on.
+  // How far a way from the surface is within the solid, at most `most`: by how often the surface winds round its far end, and
+  // what it crosses before.
   double way_out(const Vec3& from, const Vec3& inward, double most) const {
-    const double slack = kSlack * most;
-    std::vector<Crossing> crossings;
+    const double slack = kSlack * most;  // what it begins on, with its neighbours, is not crossed
+    const CrossedLine line(from, inward);
+    std::vector<std::pair<double, int>> crossings;
+    int winding = membership_.winding_number(from + most * inward);
     triangles_.visit(WayQuery{from, inward, slack, most}, [&](std::uint32_t t) {
-      const std::optional<double> way = crossing_along(solid_, solid_.triangles[t], from, inward);
-      if (way && *way > -slack)
-        crossings.push_back({*way, dot(twice_area(solid_, solid_.triangles[t]), inward) > 0});
+      const auto crossing = line.with(solid_, solid_.triangles[t]);
+      if (!crossing || !(crossing->part > slack && crossing->part <= most)) return;
+      crossings.emplace_back(crossing->part, crossing->leaves);
+      winding += crossing->leaves;
     });
+    if (winding <= 0) return 0;
     std::sort(crossings.begin(), crossings.end());
-    int winding = 0;
     for (auto at = crossings.begin(); at != crossings.end();) {
-      // At an edge both of its triangles are crossed, which counts once; where solids touch, the way goes on.
-      std::array<int, 2> sides{};  // enters, leaves
-      const double way = at->way;
-      for (; at != crossings.end() && at->way <= way + slack; ++at) sides[at->is_exit] = 1;
-      winding += sides[0] - sides[1];
+      const double way = at->first;  // where solids touch, the way goes on
+      for (; at != crossings.end() && at->first <= way + slack; ++at) winding -= at->second;
       if (winding <= 0) return way;
     }
     return most;
@@ -78,6 +74,7 @@ class Ways {
 
   const Mesh& solid_;
   BoxTree triangles_;
+  SolidMembership membership_;
   DistanceToMesh skeleton_;
   double near_;
 };

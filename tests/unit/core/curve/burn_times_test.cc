@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <tuple>
 #include <vector>
 
 #include "core/curve/sheet_lines.h"
-#include "core/shapes/shapes.h"
 
 namespace affskel::core {
 namespace {
@@ -42,9 +42,15 @@ class Walls {
 
   SheetMesh& sheet() { return sheet_; }
 
+  // When the last of the triangles about a place burns there.
   double time(const Vec3& at) {
     const std::vector<char> left(sheet_.triangles.size(), 1);
-    return burn_times(sheet_, SheetEdges(sheet_), left)[vertex(at)];
+    const std::vector<double> times = burn_times(sheet_, SheetEdges(sheet_), left);
+    double last = 0;
+    for (std::size_t t = 0; t < sheet_.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (sheet_.triangles[t][k] == vertex(at)) last = std::max(last, times[3 * t + k]);
+    return last;
   }
 
  private:
@@ -104,6 +110,76 @@ TEST(BurnTimes, AreNoneOfAClosedSurface) {
   box.add({2, 3, 6}, kX, kZ, 2, 2);
   EXPECT_EQ(box.time({3, 3, 7}), 1);
   EXPECT_TRUE(std::isinf(box.time({3, 3, 6})));
+}
+
+// A wall between two closed boxes burns though they do not, from its rims: a line through it runs in its middle, whichever way
+// vertices are numbered.
+TEST(BurnTimes, LeadLinesThroughTheMiddleOfAWallBetweenClosedBoxes) {
+  for (const bool backwards : {false, true}) {
+    Walls walls;
+    const auto box = [&](double x) {
+      for (const double z : {-2., 2.}) walls.add({x, 0, z}, kX, kY, 4, 10);
+      for (const double y : {0., 10.}) walls.add({x, y, -2}, kX, kZ, 4, 4);
+      for (const double at : {x, x + 4}) walls.add({at, 0, -2}, kY, kZ, 10, 4);
+    };
+    box(0);
+    box(6);
+    walls.add({4, 0, 0}, kX, kY, 2, 10);
+    SheetMesh sheet = walls.sheet();
+    std::vector<char> ends(sheet.vertices.size(), 0);
+    for (const double x : {0., 10.}) ends[walls.vertex({x, 5, 0})] = 1;
+    if (backwards) {
+      const auto last = static_cast<std::uint32_t>(sheet.vertices.size() - 1);
+      std::reverse(sheet.vertices.begin(), sheet.vertices.end());
+      std::reverse(ends.begin(), ends.end());
+      for (Triangle& t : sheet.triangles) t = {last - t[0], last - t[1], last - t[2]};
+    }
+    int within = 0;
+    for (const std::uint32_t v : sheet_lines(sheet, ends).vertices) {
+      const Vec3& at = sheet.vertices[v].position;
+      if (at.x <= 4 || at.x >= 6) continue;
+      EXPECT_EQ(at.y, 5);
+      ++within;
+    }
+    EXPECT_EQ(within, 1);
+  }
+}
+
+// A strip that is turned over and closed: it has one rim.
+TEST(BurnTimes, GoAroundAMoebiusStrip) {
+  constexpr std::uint32_t kAround = 40;
+  SheetMesh strip;
+  for (std::uint32_t i = 0; i < kAround; ++i)
+    for (int j = -2; j <= 2; ++j) {
+      const double angle = 2 * 3.14159265358979 * i / kAround, r = 10 + j * std::cos(angle / 2);
+      strip.vertices.emplace_back().position = {r * std::cos(angle), r * std::sin(angle),
+                                                j * std::sin(angle / 2)};
+      strip.part.push_back(0);
+    }
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return i == kAround ? 4 - j : 5 * i + j; };
+  for (std::uint32_t i = 0; i < kAround; ++i)
+    for (std::uint32_t j = 0; j < 4; ++j) {
+      strip.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      strip.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const std::vector<double> times =
+      burn_times(strip, SheetEdges(strip), std::vector<char>(strip.triangles.size(), 1));
+  for (std::size_t t = 0; t < strip.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t j = strip.triangles[t][k] % 5;
+      EXPECT_NEAR(times[3 * t + k], std::min(j, 4 - j), 0.01);
+    }
+}
+
+TEST(BurnTimes, AreNoneOfWhatIsNotThere) {
+  Walls walls = plate();
+  std::vector<char> left(walls.sheet().triangles.size(), 1);
+  left[0] = 0;
+  const std::vector<double> times = burn_times(walls.sheet(), SheetEdges(walls.sheet()), left);
+  EXPECT_TRUE(std::isinf(times[0]));
+  EXPECT_EQ(*std::min_element(times.begin(), times.end()), 0);
+  const SheetMesh none;
+  EXPECT_TRUE(burn_times(none, SheetEdges(none), {}).empty());
 }
 
 // Two narrow fins that cross on a plate, where a line begins: once they are gone, their rims have not eaten the plate's

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/split_mix64.h"
 #include "core/base/unit.h"
 #include "core/curve/tubes.h"
 #include "core/shapes/shapes.h"
@@ -72,6 +73,32 @@ TEST(LimbSections, AnAreaHasNoPartOfWhatLiesApart) {
   const Mesh hollow = joined(joined(large, reversed(small)), moved(make_box(2, 2, 8), {3.1, 0, 0}));
   EXPECT_NEAR(LimbSections(hollow).area({0.5, 0.5, 4}, {0, 0, 1}, 0.3), 9, 1e-9);
   EXPECT_NEAR(LimbSections(hollow).area({4, 0.5, 4}, {0, 0, 1}, 0.3), 4, 1e-9);
+}
+
+// A rod, 30 wide along x and finely divided, in the hollow of a large coarse octahedron.
+TEST(LimbSections, AnAreaIsOfTheInnermostOutlineThoughAnotherIsNear) {
+  const auto octahedron = [](double r) {
+    Mesh mesh{{{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}}, {}};
+    for (const std::uint32_t a : {0U, 1U})
+      for (const std::uint32_t b : {2U, 3U})
+        for (const std::uint32_t c : {4U, 5U})
+          mesh.triangles.push_back((a + b + c) % 2 == 0 ? Triangle{a, b, c} : Triangle{a, c, b});
+    return mesh;
+  };
+  Mesh rod = make_box(30, 1, 1, 30);
+  for (Vec3& p : rod.points) p = p - Vec3{15, 0.5, 0.5};
+  const Mesh solid = joined(joined(octahedron(101), reversed(octahedron(100))), rod);
+  EXPECT_NEAR(LimbSections(solid).area({3, 0.2, 0.1}, {0, 0, 1}, 0.5), 30, 1e-9);
+}
+
+TEST(LimbSections, AnAreaIsFoundAtEveryPlace) {
+  const LimbSections sections(make_box(4, 4, 4, 4));
+  SplitMix64 random(1);
+  const auto draw = [&] { return static_cast<double>(random.next() >> 11) * 0x1p-53; };
+  for (int n = 0; n < 3000; ++n) {
+    const Vec3 across = unit({draw() - 0.5, draw() - 0.5, draw() - 0.5});
+    EXPECT_GT(sections.area({0.5 + 3 * draw(), 0.5 + 3 * draw(), 0.5 + 3 * draw()}, across, 0.5), 1);
+  }
 }
 
 TEST(LimbSections, AnEllipseIsFound) {

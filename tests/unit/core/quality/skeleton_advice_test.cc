@@ -228,7 +228,6 @@ TEST(LittleRidgeAdvice, SuggestsALowerThreshold) {
   EXPECT_TRUE(says(little_ridge_advice(0.003, 6), "only 0.3 % of it"));
 }
 
-// A rod with its sheet; a part of it; with too few points for one; in two pieces.
 TEST(StretchedLimbsAdvice, IsForFramesThatStretch) {
   NormalBlock block({10, 10, 10});
   Lattice lattice = block.lattice;
@@ -241,6 +240,7 @@ TEST(StretchedLimbsAdvice, IsForFramesThatStretch) {
   EXPECT_TRUE(is_plain(advice));
 }
 
+// A rod with its sheet; a part of it; with too few points for one; in two pieces.
 TEST(StraySheetAdvice, TellsWhatASheetLacks) {
   NormalBlock block({3, 3, 60}, 0.5);
   const std::vector<float> radius(block.lattice.points, 1.5f);

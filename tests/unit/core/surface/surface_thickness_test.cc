@@ -112,6 +112,27 @@ TEST(SurfaceThickness, EndsWhereTheWayLeavesTheSolid) {
   }
 }
 
+// A box within another, as a surface that crosses itself has them: from the inner one's faces ways go on to the outer one's.
+TEST(SurfaceThickness, BeginsWithinAnotherSolid) {
+  const Mesh inner = moved(make_box(2, 2, 2), {3, 3, 1}), outer = make_box(8, 8, 4);
+  const Solid both = make_solid(joined(outer, inner));
+  for (const double up : {-1., 1.}) {
+    const Mesh surface{{in_solid(both, {3.5, 4, 2 - up}), in_solid(both, {4.1, 4.6, 2 - up}),
+                        in_solid(both, {4.4, 3.4, 2 - up})},
+                       {{0, 1, 2}}};
+    const double far = 2 + up * 2.5;  // beyond the outer face, which is 3 away from the inner one
+    const Mesh there{{in_solid(both, {0, 0, far}), in_solid(both, {8, 0, far}), in_solid(both, {8, 8, far}),
+                      in_solid(both, {0, 8, far})},
+                     {{0, 1, 2}, {0, 2, 3}}};
+    ThicknessOptions options;
+    options.near = 0.02 / both.scale();
+    // 3.5 away, and at a slope of 0.8 the way comes as near as 0.5 before it leaves the outer box after 3.75.
+    EXPECT_NEAR(surface_thickness(both, surface, there, std::vector<Vec3>{{0.6, 0, 0.8 * up}}, options)[0] *
+                    both.scale(),
+                3.5, 0.9);
+  }
+}
+
 // Ways from a coarse box's edges: the finer surface has triangles that lie on them.
 TEST(SurfaceThickness, BeginsOnAnEdgeOfTheSolid) {
   const Solid box = make_solid(make_box(8, 8, 2));
