@@ -92,7 +92,8 @@ TEST(LimbSections, AnAreaIsOfTheInnermostOutlineThoughAnotherIsNear) {
 }
 
 TEST(LimbSections, AnAreaIsFoundAtEveryPlace) {
-  const LimbSections sections(make_box(4, 4, 4, 4));
+  const Mesh box = make_box(4, 4, 4, 4);
+  const LimbSections sections(box);
   SplitMix64 random(1);
   const auto draw = [&] { return static_cast<double>(random.next() >> 11) * 0x1p-53; };
   for (int n = 0; n < 3000; ++n) {
