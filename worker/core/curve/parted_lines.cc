@@ -41,17 +41,19 @@ class PartLines {
     return radii.empty() ? 0 : median(std::move(radii));
   }
 
-  // How much wider than thick what is nearest to a line is, across it: in its slices, which are thinner.
+  // How much wider than thick what is nearest to a line is, across it: in the middle one of its slices, which are thinner than
+  // both.  At its ends these may hold much of what it hangs on.
   double flatness(std::span<const std::uint32_t> line) const {
-    Matrix3 across{};
-    double count = 0;
+    std::vector<double> found;
     for (const std::uint32_t v : line) {
-      if (is_joint(v) || in_.moments[v].count == 0) continue;
-      across = across + in_.moments[v].about_centre();
-      count += in_.moments[v].count;
+      const double count = in_.moments[v].count;
+      if (is_joint(v) || count == 0) continue;
+      const auto spread =
+          symmetric_eigen(in_.moments[v].about_centre() + count * square_in_cell(in_.spacing) * kIdentity3)
+              .values;
+      found.push_back(std::sqrt(spread[0] / spread[1]));
     }
-    const auto spread = symmetric_eigen(across + count * square_in_cell(in_.spacing) * kIdentity3).values;
-    return count > 0 ? std::sqrt(spread[0] / spread[1]) : 1;
+    return found.empty() ? 1 : median(std::move(found));
   }
 
   // How many of a line's first vertices are no limb's; from its middle on, by what it grows over a radius.
@@ -61,18 +63,12 @@ class PartLines {
     return 1;
   }
 
-  std::span<const std::uint32_t> without_bodies(const std::vector<std::uint32_t>& line) const {
-    const std::vector<std::uint32_t> back(line.rbegin(), line.rend());
-    const std::size_t first = before_limb(line), last = before_limb(back);
-    return first + last < line.size() ? std::span(line).subspan(first, line.size() - first - last) : line;
-  }
-
   void part(std::vector<std::uint32_t> line) {
     const std::uint32_t a = line.front(), b = line.back();
     const double length = length_of(in_.places, line);
     const double size = size_of(line);
     const bool is_link = is_joint(a) && is_joint(b);
-    if (is_link && (length < 2 * size || (a != b && flatness(without_bodies(line)) > kPlate)))
+    if (is_link && (length < 2 * size || (a != b && flatness(line) > kPlate)))
       return give_body(line, line.size());
     for (const std::uint32_t v : line)
       if (!is_joint(v)) result_.limb[v] = static_cast<std::uint32_t>(result_.limbs.size());

@@ -55,8 +55,8 @@ struct PartedLines {
 };
 
 /// Of what is nearest to a line, a limb has what makes about a tube.  From its middle on towards a joint it ends where that
-/// suddenly grows.  A link or loop that is shorter than thick is no limb, nor a link whose slices, between where bodies end, are
-/// twice as wide as thick.
+/// suddenly grows.  A link or loop that is shorter than thick is no limb, nor a link most of whose slices are twice as wide as
+/// thick.
 PartedLines parted_lines(const PartedLinesInput& input);
 
 /// Whether a size suddenly grows towards the front of a line, at its n-th vertex, over as much as it is beyond.
