@@ -70,7 +70,8 @@ void add_looks(CLI::App* command, RenderCommandOptions& options) {
   command
       ->add_option("--colour", options.colour,
                    "What colours tell: E on the skeleton, the body's part (see measure) or its\n"
-                   "thickness (see fetch)")
+                   "thickness (see fetch), each by the job's own skeleton: these two without\n"
+                   "--operator, --threshold and --no-mesh")
       ->check(one_of({"E", "part", "thickness"}))
       ->capture_default_str()
       ->type_name("");

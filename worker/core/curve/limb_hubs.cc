@@ -208,7 +208,16 @@ class FindHubs {
     const LimbHub& hub = growth.hub;
     return filled(growth) >= growth.least_filled && !is_bar(hub) &&
            is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * hub.centre) && holds_no_limb(growth) &&
-           is_thick(growth);
+           parts_no_limb(growth) && is_thick(growth);
+  }
+
+  // What takes the middle out of a limb leaves one in two pieces.
+  bool parts_no_limb(const Growth& growth) const {
+    const auto is_hubs = [&](std::uint32_t v) { return result_.of[v] == growth.number; };
+    return std::none_of(parted_.limbs.begin(), parted_.limbs.end(), [&](const PartedLimb& limb) {
+      return !is_hubs(limb.line.front()) && !is_hubs(limb.line.back()) &&
+             std::any_of(limb.line.begin(), limb.line.end(), is_hubs);
+    });
   }
 
   // Parts limbs at the ellipsoid, where noise moves the place where their slices begin to grow, and then by their sections.

@@ -203,6 +203,19 @@ TEST(LimbHubs, AreAsWideAsAPlate) {
   expect_one_hub_of_two_joints(Cube({12, 12, 2}), {-2.5, 0, 0}, 50, 2.4);
 }
 
+// A rod that passes through a body whose own lines meet beside it.
+TEST(LimbHubs, HoldNoMiddleOfALimb) {
+  for (const bool passes : {false, true}) {
+    Cube cube;
+    const std::uint32_t joint = cube.add(cube.middle, 2);
+    cube.go_out(joint, kCross, 2.2, 2, 3.5);
+    if (passes) cube.go(cube.add(cube.middle + Vec3{-6, 1, 1}, 0.5), {0.1, 0, 0}, 120, 0.5);
+    cube.radius.resize(cube.places.size(), 0.5);
+    cube.open_until(2.84);
+    EXPECT_EQ(cube.found().hubs.size(), passes ? 0U : 1U);
+  }
+}
+
 // A palm, 8 wide and 2 thick, with four fingers, and a forearm as thick as it, along which its ellipsoid would grow on and on.
 TEST(LimbHubs, DoNotGrowAlongALimb) {
   Cube palm(joined(moved(make_box(8, 8, 2), {0, 8, 0}), moved(make_box(4.6, 8.5, 2), {1.7, 0, 0})));
@@ -248,7 +261,7 @@ TEST(LimbHubs, EndWhereTheirLimbsHaveSectionsAsBeyond) {
 
 // Noise makes forks in thin limbs to which no sample point is nearest.
 TEST(LimbHubs, DoNotGrowFromNothing) {
-  Cube cube;
+  Cube cube({4, 4, 3});
   const std::uint32_t joint = cube.add(cube.middle, 2);
   cube.go_out(joint, kCross, 2.2, 2, 3.5);
   cube.open_until(2.84);
