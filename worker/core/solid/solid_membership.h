@@ -10,8 +10,8 @@ namespace affskel::core {
 
 /// Whether points lie in the solid that a mesh bounds: the winding number of the surface about the point, by a ray to the
 /// nearer side of its box, along x, or another axis on which clearly fewer triangles lie behind each other (see AxisRays).
-/// What is exactly on the surface may be in or out.  Independent of the scan conversion that chooses the sample points, and so can check it.  Keeps a reference to the mesh.  Immutable after
-/// construction; queries from several threads are safe.
+/// What is exactly on the surface may be in or out.  Independent of the scan conversion that chooses the sample points, and
+/// so can check it.  Keeps a reference to the mesh.  Immutable after construction; queries from several threads are safe.
 class SolidMembership {
  public:
   /// @param mesh closed, outward-oriented.
