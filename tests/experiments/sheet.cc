@@ -52,7 +52,8 @@ Sheet chord_sheet_of(const Job& job) {
 Sheet ridge_sheet_of(const Job& job) {
   const InFrame in_frame(job);
   const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, in_frame.field);
-  const core::RidgeSheet found = core::ridge_sheet(job.solid, job.lattice, in_frame.field, basis);
+  core::RidgeSheet found = core::ridge_sheet(job.solid, job.lattice, in_frame.field, basis);
+  core::draw_out(found);
   Sheet sheet;
   sheet.points = cloud_of(found.vertices, in_frame);
   sheet.mesh = {sheet.points.place, found.triangles};

@@ -16,6 +16,12 @@ namespace {
 
 constexpr double kMaxThreshold = 800;  // the contract's, see SkeletonParams
 
+core::RidgeSheet drawn_out(const RidgeOfField& ridge, double threshold) {
+  core::RidgeSheet sheet = ridge.sheet(threshold);
+  core::draw_out(sheet);
+  return sheet;
+}
+
 v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& ridge,
                                const core::RidgeSheet& sheet, double threshold,
                                const SheetBarriers& barriers = {}) {
@@ -26,7 +32,7 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
   const double next = core::next_threshold(low);
   core::Mesh other;
   if (next <= kMaxThreshold && !barriers.cut) {
-    other = mesh_of(ridge.sheet(next));
+    other = mesh_of(drawn_out(ridge, next));
     options.other = &other;
     options.other_threshold = next;
   }
@@ -51,7 +57,7 @@ std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfFie
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
   const RidgeOfField ridge(field);
-  const core::RidgeSheet& sheet = ridge.sheet(params.threshold());
+  const core::RidgeSheet sheet = drawn_out(ridge, params.threshold());
   v1::SkeletonPoints message;
   ridge.append_points(sheet, message);
   *message.mutable_quality() = quality_of(field, ridge, sheet, params.threshold());
@@ -61,7 +67,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
 v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
   const double threshold = params.skeleton().threshold();
   const RidgeOfField ridge(field);
-  core::RidgeSheet sheet = ridge.sheet(threshold);
+  core::RidgeSheet sheet = drawn_out(ridge, threshold);
   const std::vector<std::uint32_t> parts = parts_of(field, ridge);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);
   v1::TriangleMesh message;

@@ -179,7 +179,7 @@ class SheetMaker {
     sheet.fragments = chosen_.fragments;
     sheet.limbs = chosen_.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
     sheet.opened = left.opened;
-    static_cast<SheetMesh&>(sheet) = placed(left.cells);
+    static_cast<SkeletonMesh&>(sheet) = placed(left.cells);
     sheet.unreached = unreached_ends(solid_, lattice_, chosen_.left_out, mesh_places(solid_, lattice_, sheet),
                                      options_.context);
     return sheet;
@@ -240,7 +240,7 @@ class SheetMaker {
     return left;
   }
 
-  SheetMesh placed(const CellSet& left) const {
+  SkeletonMesh placed(const CellSet& left) const {
     const SkeletonParts from{.lattice = lattice_,
                              .parts = parts_,
                              .field = field_,

@@ -11,6 +11,7 @@
 #include "core/lattice/lattice.h"
 #include "core/ridge/filled_tunnels.h"
 #include "core/ridge/ridge_constants.h"
+#include "core/ridge/skeleton_mesh.h"
 #include "core/ridge/smoothed_derivatives.h"
 #include "core/ridge/unreached_ends.h"
 #include "core/solid/betti_numbers.h"
@@ -54,7 +55,8 @@ struct RidgeSheetOptions {
 };
 
 /// The ridge of the E field, made a skeleton of the solid: surfaces, and curves (segments).
-struct RidgeSheet : SheetMesh {
+/// Lines end where limbs begin to end, as curve_skeleton() takes them; draw_out() leads them on to the tips.
+struct RidgeSheet : SkeletonMesh {
   /// Of the complex dual to the lattice, with a disc across each tunnel that the solid lacks: the skeleton's and its
   /// fragments', by theorem.
   BettiNumbers lattice;

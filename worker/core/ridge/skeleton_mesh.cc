@@ -13,6 +13,7 @@
 #include "core/lattice/lattice_coordinates.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/patch_senses.h"
+#include "core/ridge/drawn_out_lines.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/ridge/skeleton_cells.h"
@@ -44,7 +45,7 @@ class Placing {
         neighbours_(neighbours(cells_.vertices.size(), cells_.segments)),
         rim_neighbours_(cells_.rim_neighbours()) {}
 
-  SheetMesh run(ExecutionContext* context) {
+  SkeletonMesh run(ExecutionContext* context) {
     make_vertices();
     throw_if_stopped(context);
     draw_rims();
@@ -53,7 +54,9 @@ class Placing {
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
     even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
-    take_values();
+    for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v)
+      if (!bound_[v]) take_values(v);
+    draw_out_lines();
     make_faces();
     return std::move(mesh_);
   }
@@ -339,19 +342,31 @@ class Placing {
     return off;
   }
 
-  // What vertices that were moved freely have at their places, by the sample points next to them.
-  void take_values() {
-    for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
-      if (bound_[v]) continue;
-      const Vec3 off = walk(v);
-      SheetVertex& vertex = mesh_.vertices[v];
-      const Vec3& gradient = from_.field.gradient[vertex.point];
-      const double rise = from_.lattice.spacing * dot(gradient, off);
-      // E is positive in the solid, and bends up towards the surface, where the gradient would go below 0.
-      const double here = from_.field.erosion[vertex.point];
-      vertex.erosion = std::max(0.25 * here, here + rise);
-      vertex.area = section_area(to_mesh_, gradient);
-      vertex.normal_a = vertex.normal_b = unit(gradient);
+  // What a vertex that was moved freely has at its place, by the sample point next to it.
+  void take_values(std::uint32_t v) {
+    const Vec3 off = walk(v);
+    SheetVertex& vertex = mesh_.vertices[v];
+    const Vec3& gradient = from_.field.gradient[vertex.point];
+    const double rise = from_.lattice.spacing * dot(gradient, off);
+    // E is positive in the solid, and bends up towards the surface, where the gradient would go below 0.
+    const double here = from_.field.erosion[vertex.point];
+    vertex.erosion = std::max(0.25 * here, here + rise);
+    vertex.area = section_area(to_mesh_, gradient);
+    vertex.normal_a = vertex.normal_b = unit(gradient);
+  }
+
+  void draw_out_lines() {
+    const auto depth = [&](const Vec3& u) {
+      const Vec3 at = (1 / from_.lattice.spacing) * u;
+      return inside(u) ? from_.lattice.spacing * norm(at - from_.nearest.nearest_place(at)) : 0;
+    };
+    const std::vector<Vec3> places = positions(mesh_);
+    for (const auto& [v, place] : drawn_out_lines({places, neighbours_, from_.lattice.spacing / 4, depth})) {
+      const SheetVertex drawn_in = mesh_.vertices[v];
+      mesh_.vertices[v].position = place;
+      take_values(v);
+      mesh_.drawn_out.push_back({v, mesh_.vertices[v]});
+      mesh_.vertices[v] = drawn_in;
     }
   }
 
@@ -380,13 +395,17 @@ class Placing {
   std::vector<double> way_to_bound_;  // per vertex, to the nearest of these, spacings
   std::vector<Clear> clear_;          // per vertex, of those near the surface
   std::vector<Vec3> point_place_;     // per vertex that is not bound: of its sample point
-  SheetMesh mesh_;
+  SkeletonMesh mesh_;
 };
 
 }  // namespace
 
-SheetMesh skeleton_mesh(const Solid& solid, const DualComplex& complex, const CellSet& left,
-                        const SkeletonParts& from, ExecutionContext* context) {
+void draw_out(SkeletonMesh& skeleton) {
+  for (const auto& [v, at] : skeleton.drawn_out) skeleton.vertices[v] = at;
+}
+
+SkeletonMesh skeleton_mesh(const Solid& solid, const DualComplex& complex, const CellSet& left,
+                           const SkeletonParts& from, ExecutionContext* context) {
   return Placing(solid, complex, left, from).run(context);
 }
 
