@@ -43,24 +43,20 @@ double front_time(double a, double b, double u, double v) {
   return from_both ? std::min(later + t, from_beside) : from_beside;
 }
 
-// How fast the depth grows at a cube, by differences over two spacings.
-std::array<float, 3> slope_at(const DualComplex& complex, std::span<const float> depth, std::uint32_t cube) {
-  std::array<float, 3> slope{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::uint32_t lower = complex.neighbour(cube, axis, 0), upper = complex.neighbour(cube, axis, 2);
-    const float rise = depth[upper == kNone ? cube : upper] - depth[lower == kNone ? cube : lower];
-    slope[axis] = rise / static_cast<float>(std::max(1, (lower != kNone) + (upper != kNone)));
-  }
-  return slope;
-}
-
 }  // namespace
 
 SheetFronts::SheetFronts(const DualComplex& complex, std::span<const float> depth)
-    : complex_(complex), depth_(depth), reached_(complex, 1, 0) {
-  slopes_.reserve(complex.cubes());
-  for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube)
-    slopes_.push_back(slope_at(complex, depth, cube));
+    : complex_(complex), depth_(depth), reached_(complex, 1, 0) {}
+
+// How fast the depth grows at a cube, by differences over two spacings.
+Vec3 SheetFronts::slope_at(std::uint32_t cube) const {
+  Vec3 slope;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::uint32_t lower = complex_.neighbour(cube, axis, 0), upper = complex_.neighbour(cube, axis, 2);
+    const float rise = depth_[upper == kNone ? cube : upper] - depth_[lower == kNone ? cube : lower];
+    slope[axis] = static_cast<double>(rise) / std::max(1, (lower != kNone) + (upper != kNone));
+  }
+  return slope;
 }
 
 void SheetFronts::end_wave() {
@@ -114,7 +110,7 @@ Vec3 SheetFronts::sheet_normal(Cell square, std::size_t across) const {
     const double sign = digit == 0 ? 1 : -1;
     const std::uint32_t behind = complex_.neighbour(cube, across, 2 - digit);
     for (const std::uint32_t of : {cube, behind == kNone ? cube : behind})
-      for (std::size_t axis = 0; axis < 3; ++axis) n[axis] += sign * static_cast<double>(slopes_[of][axis]);
+      n = n + sign * slope_at(of);
   }
   const double length = norm(n);
   return length > kSheet ? (1 / length) * n : Vec3{};
@@ -126,8 +122,7 @@ Vec3 SheetFronts::sheet_normal(Cell square, std::size_t across) const {
 bool SheetFronts::is_passed(Cell cell, Cell coface) const {
   const auto star = complex_.star(coface);
   Vec3 slope;
-  for (const auto& [cube, place] : star)
-    for (std::size_t axis = 0; axis < 3; ++axis) slope[axis] += static_cast<double>(slopes_[cube][axis]);
+  for (const auto& [cube, place] : star) slope = slope + slope_at(cube);
   slope = (1 / static_cast<double>(star.count)) * slope;
   if (norm(slope) <= kOffAxis) return false;
   if (DualComplex::dimension(coface) == 1) return true;

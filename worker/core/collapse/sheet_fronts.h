@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,12 +36,12 @@ class SheetFronts {
   float reached(Cell edge);
 
  private:
+  Vec3 slope_at(std::uint32_t cube) const;
   Vec3 sheet_normal(Cell square, std::size_t across) const;
   double crossed(Cell edge, Cell square);
 
   const DualComplex& complex_;
   std::span<const float> depth_;
-  std::vector<std::array<float, 3>> slopes_;  // of the depth, per cube
   CellValues<float> reached_;  // per edge, by a front on a sheet; negative until it stands there
   std::vector<Cell> standing_;
 };

@@ -23,8 +23,8 @@ RidgeCrossing crossing_at(const Lattice& lattice, const RidgeValues& values, con
 
 }  // namespace
 
-std::vector<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values) {
-  std::vector<RidgeCrossing> result;
+std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values) {
+  std::deque<RidgeCrossing> result;  // while a vector grows it takes three times its memory
   for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
     const PointRidge &at_x = values.ridge(x), &at_y = values.ridge(y);
     if (at_x.least >= 0 || at_y.least >= 0) return;

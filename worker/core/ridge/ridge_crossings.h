@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <deque>
 
 #include "core/base/vec3.h"
 #include "core/contour/sheet_mesh.h"
@@ -26,6 +26,6 @@ struct RidgeCrossing {
 /// normals of the level surfaces turn over one depth d = E / |grad E|, if they went on as they do there.
 /// @param values of the lattice; their bounds hold for the crossings.
 /// @return by axis, then as for_each_edge visits them.
-std::vector<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values);
+std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values);
 
 }  // namespace affskel::core

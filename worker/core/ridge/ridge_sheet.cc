@@ -67,7 +67,7 @@ struct Walls {
 
 // A vertex has the mean of its cell's crossings, normals turned to agree with the first.
 SheetMesh contour(const Lattice& lattice, const SolidParts& parts, const EdgeCells& cells,
-                  std::span<const RidgeCrossing> crossings, ExecutionContext* context) {
+                  const std::deque<RidgeCrossing>& crossings, ExecutionContext* context) {
   std::vector<SheetCrossing> places;
   places.reserve(crossings.size());
   for (const RidgeCrossing& crossing : crossings) places.push_back({crossing.at.position, crossing.normal});
@@ -188,7 +188,7 @@ class SheetMaker {
  private:
   // From a weak strength on.
   void find_ridges() {
-    std::vector<RidgeCrossing> crossings;
+    std::deque<RidgeCrossing> crossings;
     {
       const RidgeValues values(lattice_, field_, basis_.derivatives, basis_.radius, walls_.distance,
                                walls_.clean ? &walls_.clean->distance : nullptr,

@@ -33,13 +33,15 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
   }
   // -lambda_1 is at most the Frobenius norm: most points need no eigenvalues.
   const Vec3 gradient = vector_of(point.gradient);
-  if (largest == 0 || strength_of(-std::sqrt(squares), static_cast<double>(point.value),
-                                  dot(gradient, gradient)) < 0.25 * min_strength)
-    return {};
+  const auto is_weak = [&](double least) {
+    return strength_of(least, static_cast<double>(point.value), dot(gradient, gradient)) <
+           0.25 * min_strength;
+  };
+  if (largest == 0 || is_weak(-std::sqrt(squares))) return {};
   Matrix3 scaled = hessian_of(point);
   for (Vec3& column : scaled) column = column / largest;
   const SymmetricEigen eigen = symmetric_eigen(scaled);
-  if (eigen.values[2] >= 0) return {};
+  if (eigen.values[2] >= 0 || is_weak(eigen.values[2] * largest)) return {};
   return {floats_of(eigen.vectors[2]), floats_of(eigen.vectors[0]),
           static_cast<float>(eigen.values[2] * largest),
           static_cast<float>(eigen.values[1] / eigen.values[2]),
