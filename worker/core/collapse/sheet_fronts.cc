@@ -109,8 +109,7 @@ Vec3 SheetFronts::sheet_normal(Cell square, std::size_t across) const {
     const std::uint32_t digit = DualComplex::digit(place, across);
     const double sign = digit == 0 ? 1 : -1;
     const std::uint32_t behind = complex_.neighbour(cube, across, 2 - digit);
-    for (const std::uint32_t of : {cube, behind == kNone ? cube : behind})
-      n = n + sign * slope_at(of);
+    for (const std::uint32_t of : {cube, behind == kNone ? cube : behind}) n = n + sign * slope_at(of);
   }
   const double length = norm(n);
   return length > kSheet ? (1 / length) * n : Vec3{};

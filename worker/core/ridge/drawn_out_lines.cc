@@ -60,8 +60,7 @@ class DrawOut {
     double way = 0, here = depth;
     while (way < depth) {
       const double next = in_.depth(from + (way + in_.step) * along);
-      if (next <= kEndDepth * depth)
-        return way + in_.step * (here - kEndDepth * depth) / (here - next);
+      if (next <= kEndDepth * depth) return way + in_.step * (here - kEndDepth * depth) / (here - next);
       here = next;
       way += in_.step;
     }

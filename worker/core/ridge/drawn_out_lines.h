@@ -10,9 +10,9 @@
 namespace affskel::core {
 
 struct LinesToDrawOut {
-  const std::vector<Vec3>& places;  ///< per vertex of the skeleton, in the solid
-  const Adjacency& neighbours;      ///< per vertex, along lines and surfaces
-  double step = 0;                  ///< in which it is looked how deep a place lies
+  const std::vector<Vec3>& places;           ///< per vertex of the skeleton, in the solid
+  const Adjacency& neighbours;               ///< per vertex, along lines and surfaces
+  double step = 0;                           ///< in which it is looked how deep a place lies
   std::function<double(const Vec3&)> depth;  ///< of a place below the surface of the solid; 0 outside
 };
 

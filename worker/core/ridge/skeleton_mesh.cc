@@ -364,6 +364,7 @@ class Placing {
     for (const auto& [v, place] : drawn_out_lines({places, neighbours_, from_.lattice.spacing / 4, depth})) {
       const SheetVertex drawn_in = mesh_.vertices[v];
       mesh_.vertices[v].position = place;
+      if (bound_[v]) mesh_.vertices[v].point = complex_.star(cells_.vertices[v]).members[0].cube;
       take_values(v);
       mesh_.drawn_out.push_back({v, mesh_.vertices[v]});
       mesh_.vertices[v] = drawn_in;

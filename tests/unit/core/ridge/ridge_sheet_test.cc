@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/base/error.h"
@@ -336,6 +337,34 @@ TEST(RidgeSheet, OfABasisIsTheSameAtEveryThresholdAndNumberOfThreads) {
   }
   const ErodedSolid other(make_box(4, 2, 1, 1), axes(0.25), "sphere:80");
   EXPECT_THROW(ridge_sheet(other.solid, other.lattice, other.field, basis), CoreError);
+}
+
+// Of a rod with a ball's halves at its ends, drawn out; what is not told keeps its place.
+TEST(RidgeSheet, HasLinesThatLeadToTheTips) {
+  const auto rod = [](const Vec3& p) { return norm(p - Vec3{0, 0, std::clamp(p.z, -4.0, 4.0)}) - 1; };
+  const double h = 0.2;
+  const ErodedSolid solid(mesh_zero_set(rod, {{-1.5, -1.5, -5.5}, {1.5, 1.5, 5.5}, 0.3}), axes(h),
+                          "sphere:320");
+  const RidgeSheet before = ridge_of(solid);
+  RidgeSheet sheet = before;
+  draw_out(sheet);
+  EXPECT_EQ(topology(sheet), (BettiNumbers{1, 0, 0}));
+  Range z;
+  for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
+    const Vec3 at = solid.place(sheet.vertices[v].position);
+    z.take(at.z);
+    if (std::abs(at.z) < 2) EXPECT_EQ(sheet.vertices[v].position, before.vertices[v].position);
+  }
+  EXPECT_NEAR(z.low, -4.5, h);
+  EXPECT_NEAR(z.high, 4.5, h);
+  for (const auto& [v, vertex] : sheet.drawn_out) {
+    const Vec3 at = solid.place(vertex.position);
+    const double height = 5 - std::abs(at.z), cap = std::numbers::pi * height * height * (3 - height) / 3;
+    if (height < 0.7) EXPECT_NEAR(vertex.erosion, cap, 0.15);
+    const auto places = lattice_places(solid.lattice, std::vector{vertex.point});
+    EXPECT_LT(norm(h * vector_of(places[0]) - vertex.position), h);
+    EXPECT_LT(std::hypot(at.x, at.y), h);
+  }
 }
 
 TEST(RidgeSheet, StopsWhenItsContextAsks) {
