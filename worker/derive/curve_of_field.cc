@@ -75,6 +75,7 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
     set_place(field_.to_mesh(curve.opened[n].place), curve.opened[n].distance, *message.add_openings());
   if (message.advice().empty() && curve.segments.empty())
     add_advice({without_lines(curve, threshold_of(threshold)), {}}, message);
+  if (message.advice().empty()) add_advice(ridge_.flat_advice(curve), message);
   add_advice(core::stretched_limbs_advice(field_.lattice()), message);
   return message;
 }

@@ -2,11 +2,30 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/quality/skeleton_advice.h"
 #include "derive/messages.h"
 
 namespace affskel::worker {
+namespace {
+
+struct Places {
+  std::vector<core::Vec3> places;     // in the frame
+  std::vector<std::uint32_t> points;  // the sample point of each
+};
+
+Places where(const core::SheetMesh& skeleton) {
+  Places result;
+  for (const core::SheetVertex& vertex : skeleton.vertices) {
+    result.places.push_back(vertex.position);
+    result.points.push_back(vertex.point);
+  }
+  return result;
+}
+
+}  // namespace
 
 RidgeOfField::RidgeOfField(const FinishedField& field) : field_(field) {
   auto& basis = field.known().basis;
@@ -53,13 +72,13 @@ void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQua
   const std::size_t vertices = sheet.vertices.size() / std::max<std::size_t>(1, kept.components);
   add_advice(core::small_skeleton_advice(field_.lattice(), basis().radius, vertices), message);
   if (!message.advice().empty()) return;
-  std::vector<core::Vec3> places;
-  std::vector<std::uint32_t> points;
-  for (const core::SheetVertex& vertex : sheet.vertices) {
-    places.push_back(vertex.position);
-    points.push_back(vertex.point);
-  }
+  const auto [places, points] = where(sheet);
   add_advice(core::bare_solid_advice(field_.lattice(), basis().radius, places, points), message);
+}
+
+core::Advice RidgeOfField::flat_advice(const core::SheetMesh& lines) const {
+  const auto [places, points] = where(lines);
+  return core::flat_solid_advice(field_.lattice(), basis().radius, places, points);
 }
 
 void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, double threshold,

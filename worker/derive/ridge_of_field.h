@@ -1,6 +1,7 @@
 #pragma once
 
 #include "affskel/v1/types.pb.h"
+#include "core/quality/advice.h"
 #include "core/ridge/ridge_sheet.h"
 #include "derive/finished_field.h"
 
@@ -23,6 +24,9 @@ class RidgeOfField {
   /// the solid, so that the skeleton lacks or adds something.
   /// @param cut whether parts of the sheet were asked to be left out: then it may be small on any lattice.
   void report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message, bool cut = false) const;
+
+  /// That lines on it leave out much of the solid, because it is flat; else nothing.
+  core::Advice flat_advice(const core::SheetMesh& lines) const;
 
   /// That hardly any of the sheet is ridge, where there is no other advice.
   static void report_ridge(const core::RidgeSheet& sheet, double threshold, v1::SkeletonQuality& message);

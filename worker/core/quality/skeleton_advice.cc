@@ -221,6 +221,17 @@ Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, 
       {}};
 }
 
+Advice flat_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
+                         std::span<const std::uint32_t> points) {
+  const std::optional<double> share = bare_share(lattice, radius, places, points);
+  if (!share) return {};
+  return {
+      base::rounded(100 * *share, 2) +
+          " % of the solid are farther from the lines than twice the thickness there: lines tell little of plates "
+          "and shells, which have sheets.",
+      {{"operator", "ridge"}}};
+}
+
 Advice little_ridge_advice(double share, double threshold) {
   if (share >= kLittleRidge) return {};
   const std::string lower = base::rounded(threshold / kLowerThreshold, 2);

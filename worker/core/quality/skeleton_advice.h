@@ -63,6 +63,11 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
 Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
                          std::span<const std::uint32_t> points);
 
+/// That the lines of `curve` leave out much of the solid, because it is flat; else nothing.
+/// @param radius, places, points as for bare_solid_advice(), of the lines.
+Advice flat_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
+                         std::span<const std::uint32_t> points);
+
 /// That hardly any of a skeleton of `ridge` is ridge, so that nearly all of it are ways and membranes, which join what
 /// is found or keep the solid's topology; else nothing.
 /// @param share of its vertices that lie on ridges. @param threshold of these, for a lower one to try.

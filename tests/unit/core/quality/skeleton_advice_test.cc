@@ -219,6 +219,25 @@ TEST(BareSolidAdvice, IsForSolidsFarFromTheirSkeleton) {
   EXPECT_TRUE(bare_solid_advice(block.lattice, radius, {}, {}).text.empty());
 }
 
+// A plate with a line across its middle, and one with lines everywhere.
+TEST(FlatSolidAdvice, IsForSolidsThatLinesLeaveOut) {
+  NormalBlock plate({60, 60, 3}, 0.5);
+  const std::vector<float> radius(plate.lattice.points, 1.5f);
+  std::vector<Vec3> places;
+  for (double i = 0; i < 60; ++i) places.push_back(0.5 * Vec3{i, 30, 1});
+  std::vector<std::uint32_t> points(places.size(), 0);
+  const Advice advice = flat_solid_advice(plate.lattice, radius, places, points);
+  EXPECT_TRUE(says(advice, "68 % of the solid")) << advice.text;  // but for 19 rows of 60
+  EXPECT_TRUE(suggests(advice, "operator", "ridge"));
+  EXPECT_TRUE(is_plain(advice));
+  for (double i = 0; i < 60; ++i) {
+    places.push_back(0.5 * Vec3{i, 12, 1});
+    places.push_back(0.5 * Vec3{i, 48, 1});
+  }
+  points.resize(places.size(), 0);
+  EXPECT_TRUE(flat_solid_advice(plate.lattice, radius, places, points).text.empty());
+}
+
 TEST(LittleRidgeAdvice, SuggestsALowerThreshold) {
   EXPECT_TRUE(little_ridge_advice(0.5, 6).text.empty());
   const Advice none = little_ridge_advice(0, 6);

@@ -66,7 +66,9 @@ TEST(DrawnOutLines, KeepWhereTheyMeet) {
   const std::vector<MovedVertex> moved = drawn_out(fork.places, fork.segments);
   for (const MovedVertex& vertex : moved) {
     EXPECT_NE(vertex.vertex, 6U);
-    if (vertex.vertex > 6) EXPECT_NEAR(in_tube(vertex.place), 0.375, 1e-9);
+    if (vertex.vertex > 6) {
+      EXPECT_NEAR(in_tube(vertex.place), 0.375, 1e-9);
+    }
   }
   EXPECT_EQ(moved.back().vertex, 8U);
 }

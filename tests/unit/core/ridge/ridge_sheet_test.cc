@@ -353,14 +353,18 @@ TEST(RidgeSheet, HasLinesThatLeadToTheTips) {
   for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
     const Vec3 at = solid.place(sheet.vertices[v].position);
     z.take(at.z);
-    if (std::abs(at.z) < 2) EXPECT_EQ(sheet.vertices[v].position, before.vertices[v].position);
+    if (std::abs(at.z) < 2) {
+      EXPECT_EQ(sheet.vertices[v].position, before.vertices[v].position);
+    }
   }
   EXPECT_NEAR(z.low, -4.5, h);
   EXPECT_NEAR(z.high, 4.5, h);
   for (const auto& [v, vertex] : sheet.drawn_out) {
     const Vec3 at = solid.place(vertex.position);
     const double height = 5 - std::abs(at.z), cap = std::numbers::pi * height * height * (3 - height) / 3;
-    if (height < 0.7) EXPECT_NEAR(vertex.erosion, cap, 0.15);
+    if (height < 0.7) {
+      EXPECT_NEAR(vertex.erosion, cap, 0.15);
+    }
     const auto places = lattice_places(solid.lattice, std::vector{vertex.point});
     EXPECT_LT(norm(h * vector_of(places[0]) - vertex.position), h);
     EXPECT_LT(std::hypot(at.x, at.y), h);
