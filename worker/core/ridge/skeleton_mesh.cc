@@ -14,6 +14,7 @@
 #include "core/mesh/edges.h"
 #include "core/mesh/patch_senses.h"
 #include "core/ridge/drawn_out_lines.h"
+#include "core/ridge/drawn_rims.h"
 #include "core/ridge/local_depth.h"
 #include "core/ridge/ridge_constants.h"
 #include "core/ridge/skeleton_cells.h"
@@ -48,7 +49,7 @@ class Placing {
   SkeletonMesh run(ExecutionContext* context) {
     make_vertices();
     throw_if_stopped(context);
-    draw_rims();
+    mesh_.vertices = drawn_rims(mesh_.vertices, cells_.rings, rim_neighbours_, from_.low);
     even_out_rims(context);
     find_ways_to_bound();
     even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
@@ -141,37 +142,6 @@ class Placing {
   }
 
   bool inside(const Vec3& u) const { return membership_.contains(scaled_from_frame(from_.lattice, u)); }
-
-  bool weak(std::uint32_t v) const { return mesh_.vertices[v].strength < from_.low; }
-
-  void draw_rims() {
-    std::vector<SheetVertex> drawn = mesh_.vertices;
-    std::vector<std::uint32_t> met(cells_.vertices.size(), 0);
-    const auto draw = [&](std::uint32_t v, std::uint32_t to) {
-      const SheetVertex &at = mesh_.vertices[v], &strong = mesh_.vertices[to];
-      if (at.kind != SkeletonKind::kRidge || strong.kind != SkeletonKind::kRidge) return;
-      if (rim_neighbours_[v].empty() || !weak(v) || weak(to)) return;
-      const double t = (1 / at.strength - 1 / from_.low) / (1 / at.strength - 1 / strong.strength);
-      drawn[v] =
-          between(met[v] == 0 ? at : drawn[v], between(at, strong, t), 1 / static_cast<double>(met[v] + 1));
-      ++met[v];
-    };
-    for (const auto& ring : cells_.rings) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        draw(ring[k], ring[(k + 1) % 4]);
-        draw(ring[k], ring[(k + 3) % 4]);
-      }
-    }
-    // Corners, with no strong neighbour but across a square.
-    const std::vector<std::uint32_t> beside = met;
-    for (const auto& ring : cells_.rings) {
-      for (std::size_t k = 0; k < 4; ++k)
-        if (beside[ring[k]] == 0) draw(ring[k], ring[(k + 2) % 4]);
-    }
-    for (std::uint32_t v = 0; v < met.size(); ++v)
-      if (met[v] > 0) drawn[v].strength = from_.low;
-    mesh_.vertices = std::move(drawn);
-  }
 
   // What lies within a surface goes along with the rim, the less the farther from it: a rim that is drawn in would leave it
   // outside.
