@@ -11,13 +11,6 @@ namespace {
 
 std::atomic<std::uint64_t> taken{0}, most{0};
 
-void count(std::uint64_t bytes) {
-  const std::uint64_t now = taken += bytes;
-  std::uint64_t known = most;
-  while (now > known && !most.compare_exchange_weak(known, now)) {
-  }
-}
-
 }  // namespace
 
 std::uint64_t heap_bytes() {
@@ -35,6 +28,19 @@ void begin_heap_peak() {
 }  // namespace affskel::tests
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace affskel::tests {
+namespace {
+
+void count(std::uint64_t bytes) {
+  const std::uint64_t now = taken += bytes;
+  std::uint64_t known = most;
+  while (now > known && !most.compare_exchange_weak(known, now)) {
+  }
+}
+
+}  // namespace
+}  // namespace affskel::tests
 
 // The forms for arrays and those that do not throw call these.
 void* operator new(std::size_t size) {

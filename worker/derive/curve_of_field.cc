@@ -73,9 +73,12 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   message.set_opened(static_cast<std::uint32_t>(curve.opened.size()));
   for (std::size_t n = 0; n < std::min(kMaxPlaces, curve.opened.size()); ++n)
     set_place(field_.to_mesh(curve.opened[n].place), curve.opened[n].distance, *message.add_openings());
-  if (message.advice().empty() && curve.segments.empty())
-    add_advice({without_lines(curve, threshold_of(threshold)), {}}, message);
-  if (message.advice().empty()) add_advice(ridge_.flat_advice(curve), message);
+  if (message.advice().empty()) {
+    if (curve.segments.empty()) add_advice({without_lines(curve, threshold_of(threshold)), {}}, message);
+    // A higher threshold leaves out limbs, too.
+    if (curve.opened.empty() && threshold_of(threshold) <= base::kMinCurveThreshold)
+      add_advice(ridge_.flat_advice(curve), message);
+  }
   add_advice(core::stretched_limbs_advice(field_.lattice()), message);
   return message;
 }

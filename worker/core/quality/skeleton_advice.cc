@@ -228,8 +228,8 @@ Advice flat_solid_advice(const Lattice& lattice, std::span<const float> radius, 
   return {
       base::rounded(100 * *share, 2) +
           " % of the solid are farther from the lines than twice the thickness there: lines tell little of plates "
-          "and shells, which have sheets.",
-      {{"operator", "ridge"}}};
+          "and shells. The operator ridge has their sheets.",
+      {}};
 }
 
 Advice little_ridge_advice(double share, double threshold) {

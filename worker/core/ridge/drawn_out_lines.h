@@ -23,7 +23,8 @@ struct MovedVertex {
 
 /// Draws the lines of a skeleton out to the tips that they lead to.  A line ends in the middle of a round end, as far from the
 /// tip as the limb is thick.  Its last stretch, as long as that, goes on straight, drawn out evenly, until it is half as
-/// deep: nearer to the surface lines would follow its noise.  None becomes longer by more than it was deep.
+/// deep: nearer to the surface lines would follow its noise.  None becomes longer by more than it was deep; one that is shorter
+/// than that stays, and so does one that bends so much that it would come nearer to the surface.
 /// @return what moves, by number.
 std::vector<MovedVertex> drawn_out_lines(const LinesToDrawOut& lines);
 

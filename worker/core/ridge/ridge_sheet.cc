@@ -209,8 +209,9 @@ class SheetMaker {
 
   // What is left of the solid, but for fragments.
   Collapsed collapsed_onto_ridges() {
-    SpikyLimbs limbs{basis_.complex, basis_.thickness, basis_.limbs, walls_.clean ? walls_.clean->noise : 0};
-    const std::vector<char> doubtful = possible_spikes(limbs);
+    SpikyLimbs limbs{basis_.complex, basis_.radius, basis_.thickness, basis_.limbs,
+                     walls_.clean ? walls_.clean->noise : 0};
+    const std::vector<char> doubtful = possible_spikes(solid_, walls_.mesh, lattice_, limbs);
     const RidgeEvidence evidence{.complex = basis_.complex,
                                  .parts = parts_,
                                  .field = field_,

@@ -333,11 +333,16 @@ class Placing {
     const std::vector<Vec3> places = positions(mesh_);
     for (const auto& [v, place] : drawn_out_lines({places, neighbours_, from_.lattice.spacing / 4, depth})) {
       const SheetVertex drawn_in = mesh_.vertices[v];
-      mesh_.vertices[v].position = place;
-      if (bound_[v]) mesh_.vertices[v].point = complex_.star(cells_.vertices[v]).members[0].cube;
+      SheetVertex& vertex = mesh_.vertices[v];
+      if (bound_[v]) vertex.point = complex_.star(cells_.vertices[v]).members[0].cube;
+      vertex.position = place;
       take_values(v);
-      mesh_.drawn_out.push_back({v, mesh_.vertices[v]});
-      mesh_.vertices[v] = drawn_in;
+      if (bound_[v]) {  // of a curve: on its two sides
+        vertex.normal_a = drawn_in.normal_a;
+        vertex.normal_b = drawn_in.normal_b;
+      }
+      mesh_.drawn_out.push_back({v, vertex});
+      vertex = drawn_in;
     }
   }
 

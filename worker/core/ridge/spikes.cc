@@ -5,10 +5,21 @@
 #include <cstdint>
 
 #include "core/collapse/shortest_ways.h"
+#include "core/contour/edge_cells.h"
 #include "core/ridge/ridge_constants.h"
+#include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 namespace {
+
+Mesh crossing_triangles(const Solid& solid, const Mesh& walls) {
+  std::vector<char> crosses(walls.triangles.size(), 0);
+  for (const auto& [a, b] : solid.crossings) crosses[a] = crosses[b] = 1;
+  Mesh mesh{.points = walls.points, .triangles = {}};
+  for (std::size_t t = 0; t < crosses.size(); ++t)
+    if (crosses[t]) mesh.triangles.push_back(walls.triangles[t]);
+  return mesh;
+}
 
 // The longest spike on a limb of that thickness, spacings.
 double longest_spike(float thickness) {
@@ -21,12 +32,21 @@ double longest_spike(const SpikyLimbs& limbs) {
 
 }  // namespace
 
-std::vector<char> possible_spikes(const SpikyLimbs& limbs) {
-  if (limbs.noise == 0) return {};
+std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
+                                  const SpikyLimbs& limbs) {
+  if (solid.crossings.empty()) return {};
+  const Mesh mesh = crossing_triangles(solid, walls);
+  const DistanceToMesh crossing(mesh);
+  const bool everywhere =
+      static_cast<double>(mesh.triangles.size()) >= kNoisy * static_cast<double>(walls.triangles.size());
   const double longest = std::min(kSpike * limbs.noise, longest_spike(limbs));
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
-  for (const LimbTip& tip : limbs.tips) possible.push_back(tip.length <= longest);
+  for (const LimbTip& tip : limbs.tips) {
+    const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
+    const double near = radius_about(limbs.complex, limbs.radius, tip.vertex) + limbs.noise;
+    possible.push_back(tip.length <= longest && (everywhere || crossing.nearest(place) <= near));
+  }
   return possible;
 }
 

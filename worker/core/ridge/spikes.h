@@ -6,27 +6,35 @@
 #include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/limb_tips.h"
+#include "core/lattice/lattice.h"
+#include "core/mesh/mesh.h"
+#include "core/solid/solid.h"
 
 namespace affskel::core {
 
 /// The limbs of a solid, some of which may be spikes that noise has pulled out of its surface.
 struct SpikyLimbs {
   const DualComplex& complex;
+  std::span<const float> radius;     ///< per sample point: distance to the surface, spacings
   std::span<const float> thickness;  ///< per sample point, spacings: see section_radii()
   std::span<const LimbTip> tips;
-  /// Of a surface that crosses itself: root of the mean squared distance that smoothing moves its vertices by, spacings.
-  double noise = 0;
+  double noise =
+      0;  ///< root of the mean squared distance that smoothing moves the surface's vertices by, spacings
 };
 
-/// Which limbs may be spikes: those that are no longer than kSpike times the noise, nor than the solid is thick somewhere.
-/// @return per limb; empty where there is no noise.
-std::vector<char> possible_spikes(const SpikyLimbs& limbs);
+/// Which limbs may be spikes: those about whose tips the surface crosses itself, no farther away than the surface and the
+/// noise, or all where it does so at kNoisy of its triangles, that are no longer than kSpike times the noise, nor than the
+/// solid is thick somewhere.
+/// @param walls the solid's surface in lattice coordinates.
+/// @return per limb; empty where the surface does not cross itself.
+std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
+                                  const SpikyLimbs& limbs);
 
 /// Those limbs that are none: a spike is no longer than the limb is thick that it stands on, and ends no farther than
 /// that and its length from the limb's skeleton.
 /// @param skeleton of the solid without these limbs.
 std::vector<LimbTip> limbs_without_spikes(const SpikyLimbs& limbs, const CellSet& skeleton);
 
-inline constexpr double kSpike = 6;
+inline constexpr double kSpike = 6, kNoisy = 0.2;
 
 }  // namespace affskel::core

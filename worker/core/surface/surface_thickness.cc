@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/base/unit.h"
 #include "core/solid/solid_membership.h"
 #include "core/spatial/box_tree.h"
 #include "core/spatial/distance_to_mesh.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr double kStep = 0.5;
 constexpr double kSlack = 1e-9;  // for rounding, of ways
 constexpr double kPasses = 0.5;  // of the centroid's distance: see surface_thickness()
+constexpr double kFacing =
+    0.75;  // cosine: a way that is steeper to the surface does not tell how thick a wall is
 
 class Ways {
  public:
@@ -29,7 +32,10 @@ class Ways {
         skeleton_(skeleton),
         near_(options.near) {}
 
-  double thickness(const Vec3& from, const Vec3& inward) const {
+  // @param normal of the surface there, unit, towards the inside.
+  double thickness(const Vec3& from, const Vec3& optimal, const Vec3& normal) const {
+    const double facing = dot(optimal, normal);
+    const Vec3 inward = facing < 0 ? -optimal : optimal;
     const Vec3 nearest = skeleton_.nearest_place(from);
     const double straight = norm(nearest - from);
     if (dot(inward, inward) == 0 || straight <= near_) return straight;
@@ -45,7 +51,9 @@ class Ways {
       }
       way += std::max(kStep * distance, near_);
     }
-    return least <= std::max(near_, kPasses * straight) && foot > 0 ? foot : straight;
+    if (least <= std::max(near_, kPasses * straight) && foot > 0) return foot;
+    const bool is_wall = most > 0 && most < 2 * straight && std::abs(facing) > kFacing;
+    return is_wall ? 0.5 * most : straight;
   }
 
  private:
@@ -90,7 +98,8 @@ std::vector<double> surface_thickness(const Solid& solid, const Mesh& surface, c
     for (std::size_t t = begin; t < end; ++t, stop.did(1000)) {
       const auto& [a, b, c] = surface.triangles[t];
       const auto& points = surface.points;
-      result[t] = ways.thickness((1.0 / 3) * (points[a] + (points[b] + points[c])), inward[t]);
+      const Vec3 normal = -1.0 * unit(twice_area(surface, surface.triangles[t]));
+      result[t] = ways.thickness((1.0 / 3) * (points[a] + (points[b] + points[c])), inward[t], normal);
     }
   });
   return result;

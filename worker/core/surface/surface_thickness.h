@@ -15,9 +15,11 @@ struct ThicknessOptions {
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
-/// How thick the solid is under each triangle of its surface: from its centroid along the optimal normal, within the solid, to where
-/// that way comes nearest to the skeleton.  Where it leaves the solid, or passes the skeleton at more than half of the
-/// centroid's distance (in hollows the optimal plane is that of another side), that distance.
+/// How thick the solid is under each triangle of its surface: from its centroid along the optimal normal, within the solid,
+/// to where that way comes nearest to the skeleton.  In hollows the optimal plane is that of another side, and the normal may
+/// lead out of the solid: then the other way.  Where it passes the skeleton at more than half of the centroid's distance, and
+/// leaves the solid, there is no skeleton under the triangle, as in a bent wall, which has no ridge: half of that way, unless
+/// it is steep to the surface.  Else the distance to the skeleton.
 /// @param surface of the solid, divided as may be; scaled coordinates.
 /// @param skeleton scaled coordinates; its curves as triangles of two different corners, one vertex as one of one.
 /// @param inward per triangle of the surface: the optimal normal, unit, or 0 where there is none.

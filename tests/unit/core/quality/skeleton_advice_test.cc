@@ -229,7 +229,7 @@ TEST(FlatSolidAdvice, IsForSolidsThatLinesLeaveOut) {
   const Advice advice = flat_solid_advice(plate.lattice, radius, places, points);
   EXPECT_TRUE(says(advice, "71 % of the solid"))
       << advice.text;  // but for 19 rows of 60 in the middle layer, 17 in others
-  EXPECT_TRUE(suggests(advice, "operator", "ridge"));
+  EXPECT_TRUE(says(advice, "The operator ridge has their sheets"));
   EXPECT_TRUE(is_plain(advice));
   for (double i = 0; i < 60; ++i) {
     places.push_back(0.5 * Vec3{i, 12, 1});

@@ -58,19 +58,38 @@ TEST(DrawnOutLines, AreLongerByNoMoreThanTheirDepth) {
   EXPECT_EQ(moved.front().place.x, 0);
 }
 
-// Where lines meet, the last stretch begins.
-TEST(DrawnOutLines, KeepWhereTheyMeet) {
+// Where lines meet, what is shorter than it is deep stays; the third, long enough, goes on.
+TEST(DrawnOutLines, AreNoShorterThanTheyAreDeep) {
   Line fork = line({3, 0, 0}, {4.5, 0, 0});
-  fork.places.insert(fork.places.end(), {{4.5, 0.25, 0}, {4.5, -0.25, 0}});
-  fork.segments.insert(fork.segments.end(), {{6, 7}, {6, 8}});
-  const std::vector<MovedVertex> moved = drawn_out(fork.places, fork.segments);
-  for (const MovedVertex& vertex : moved) {
-    EXPECT_NE(vertex.vertex, 6U);
-    if (vertex.vertex > 6) {
-      EXPECT_NEAR(in_tube(vertex.place), 0.375, 1e-9);
-    }
-  }
-  EXPECT_EQ(moved.back().vertex, 8U);
+  fork.places.insert(fork.places.end(), {{4.5, 0.25, 0}, {4.5, -0.25, 0}, {4.5, -0.55, 0}});
+  fork.segments.insert(fork.segments.end(), {{6, 7}, {6, 8}, {8, 9}});
+  std::vector<std::uint32_t> moved;
+  for (const MovedVertex& vertex : drawn_out(fork.places, fork.segments)) moved.push_back(vertex.vertex);
+  EXPECT_EQ(moved, (std::vector<std::uint32_t>{0, 1, 2, 3, 8, 9}));
+}
+
+// A line that bends round a hole of the solid would be drawn into it; of a thin solid a step would lead out.
+TEST(DrawnOutLines, StayInTheSolid) {
+  const auto holed = [](double x) {
+    return [x](const Vec3& p) {
+      return norm(p - Vec3{x, 0.5, 0}) < 0.2 ? 0.0 : std::clamp((12 - p.x) / 2, 0.0, 1.0);
+    };
+  };
+  const std::vector<Vec3> bent{{10, 0, 0}, {9.2, 0.5, 0}, {8.9, 0, 0}, {8, 0, 0}};
+  const std::vector<Segment> segments{{0, 1}, {1, 2}, {2, 3}};
+  EXPECT_EQ(drawn_out_lines({bent, neighbours(4, segments), 0.07, holed(20)}).size(),
+            3U);  // the other end is straight
+  const std::vector<MovedVertex> round = drawn_out_lines({bent, neighbours(4, segments), 0.07, holed(9.6)});
+  ASSERT_FALSE(round.empty());
+  for (const MovedVertex& vertex : round) EXPECT_GT(vertex.vertex, 1U);
+  const auto in_wire = [](const Vec3& p) {
+    return std::max(0.0, 0.01 - norm(p - Vec3{std::clamp(p.x, 0.0, 5.0), 0, 0}));
+  };
+  const Line wire = line({0, 0, 0}, {5, 0, 0});
+  const std::vector<MovedVertex> moved =
+      drawn_out_lines({wire.places, neighbours(wire.places.size(), wire.segments), 0.07, in_wire});
+  ASSERT_EQ(moved.size(), 2U);
+  EXPECT_NEAR(moved[1].place.x, 5.005, 1e-9);
 }
 
 // A surface has no end, and one place no direction.

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "core/collapse/lattice_solids.h"
+#include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/local_depth.h"
 #include "core/shapes/shapes.h"
 
 namespace affskel::core {
@@ -17,6 +19,7 @@ using Cell = DualComplex::Cell;
 struct Beam {
   LatticeSolid solid{make_box(20, 2, 2, 20), 0.5};
   DualComplex complex{solid.lattice};
+  std::vector<float> radius = surface_distance(solid.lattice);
   std::vector<float> thickness;
   std::vector<LimbTip> tips{2};
 
@@ -27,7 +30,9 @@ struct Beam {
     });
   }
 
-  SpikyLimbs limbs(double noise = 5) const { return {complex, thickness, tips, noise}; }
+  SpikyLimbs limbs(double noise = 5) const { return {complex, radius, thickness, tips, noise}; }
+
+  Mesh walls() const { return surface_in_lattice(solid.solid, solid.lattice); }
 
   // The last tip's vertex alone.
   CellSet skeleton() const {
@@ -37,14 +42,41 @@ struct Beam {
   }
 };
 
-TEST(Spikes, MayBeWhatIsNoLongerThanNoiseAndSolidAre) {
+// Of the triangles within 8 spacings of the first tip, which are three in ten of all, every n-th crosses itself.
+void cross_near_first_tip(Beam& beam, const Mesh& walls, std::uint32_t n) {
+  for (std::uint32_t t = 0; t < walls.triangles.size(); t += n) {
+    const auto& [a, b, c] = walls.triangles[t];
+    if ((walls.points[a].x + walls.points[b].x + walls.points[c].x) / 3 < 8)
+      beam.solid.solid.crossings.emplace_back(t, t);
+  }
+}
+
+TEST(Spikes, MayBeWhereTheSurfaceCrossesItselfAboutATip) {
   Beam beam(2);
+  const Mesh walls = beam.walls();
+  const auto possible = [&](double noise = 5) {
+    return possible_spikes(beam.solid.solid, walls, beam.solid.lattice, beam.limbs(noise));
+  };
+  EXPECT_TRUE(possible().empty());
+  cross_near_first_tip(beam, walls, 4);
+  EXPECT_EQ(possible(), (std::vector<char>{1, 0}));
   beam.tips[0].length = 3;
-  beam.tips[1].length = 4;
-  EXPECT_TRUE(possible_spikes(beam.limbs(0)).empty());
-  EXPECT_EQ(possible_spikes(beam.limbs(5)), (std::vector<char>{1, 0})) << "longer than 1 + 1.2 * 2";
-  EXPECT_EQ(possible_spikes(beam.limbs(0.51)), (std::vector<char>{1, 0}));
-  EXPECT_EQ(possible_spikes(beam.limbs(0.49)), (std::vector<char>{0, 0}));
+  EXPECT_EQ(possible(0.51), (std::vector<char>{1, 0}));
+  EXPECT_EQ(possible(0.49), (std::vector<char>{0, 0})) << "longer than noise pulls spikes out";
+  beam.tips[0].length = 1 + 1.2 * 2 + 0.01;
+  EXPECT_EQ(possible(), (std::vector<char>{0, 0}));
+}
+
+TEST(Spikes, MayBeAnywhereWhereAFifthOfTheSurfaceCrossesItself) {
+  Beam beam(2);
+  const Mesh walls = beam.walls();
+  cross_near_first_tip(beam, walls, 1);
+  beam.tips[0].length = beam.tips[1].length = 3;
+  const auto possible = [&](double noise) {
+    return possible_spikes(beam.solid.solid, walls, beam.solid.lattice, beam.limbs(noise));
+  };
+  EXPECT_EQ(possible(0.51), (std::vector<char>{1, 1}));
+  EXPECT_EQ(possible(0.49), (std::vector<char>{0, 0}));
 }
 
 // 38 spacings from the skeleton: as far as a spike of that length may be from that of a limb 15 thick.

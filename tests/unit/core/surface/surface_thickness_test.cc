@@ -74,8 +74,8 @@ TEST(SurfaceThickness, OfACylinderIsItsRadius) {
   }
 }
 
-// A way that leads out of the solid, or nowhere, tells nothing: then it is the distance.
-TEST(SurfaceThickness, OutwardWaysGiveTheDistance) {
+// Where the optimal normal leads out of the solid, it is taken the other way round; none tells nothing: then it is the distance.
+TEST(SurfaceThickness, OutwardNormalsAreTurned) {
   const Solid ball = make_solid(make_sphere(2, 320));
   const Mesh centre{{{0, 0, 0}}, {{0, 0, 0}}};
   std::vector<Vec3> outward = inward_normals(ball.mesh);
@@ -85,13 +85,13 @@ TEST(SurfaceThickness, OutwardWaysGiveTheDistance) {
   const std::vector<double> none = thickness(ball, centre, std::vector<Vec3>(outward.size()));
   for (std::size_t t = 0; t < within.size(); ++t) {
     EXPECT_NEAR(within[t], 2, 0.06);
-    EXPECT_NEAR(without[t], within[t], 1e-3);
-    EXPECT_EQ(none[t], without[t]);
+    EXPECT_EQ(without[t], within[t]);
+    EXPECT_NEAR(none[t], within[t], 1e-3);
   }
 }
 
 // Two plates, 2 thick, a gap of 0.5 apart, touching, or crossing, and a skeleton in the upper one alone: from below the lower
-// one the way leaves that before it comes there only where there is a gap.
+// one the way leaves that before it comes there only where there is a gap, and its middle counts.
 TEST(SurfaceThickness, EndsWhereTheWayLeavesTheSolid) {
   for (const double gap : {0.5, 0., -0.5}) {
     const Mesh plate = make_box(8, 8, 2, 8), mesh = joined(plate, moved(plate, {0, 0, 2 + gap}));
@@ -105,7 +105,7 @@ TEST(SurfaceThickness, EndsWhereTheWayLeavesTheSolid) {
       const auto& [a, b, c] = mesh.triangles[t];
       const Vec3 at = (1. / 3) * (mesh.points[a] + (mesh.points[b] + mesh.points[c]));
       if (norm(at - below) > 1) continue;
-      EXPECT_NEAR(found[t], gap > 0 ? 3 + gap : (3 + gap) / 0.8, 0.05);
+      EXPECT_NEAR(found[t], (gap > 0 ? 1 : 3 + gap) / 0.8, 0.05);
       ++count;
     }
     EXPECT_GE(count, 4);
@@ -119,7 +119,7 @@ TEST(SurfaceThickness, BeginsWithinAnotherSolid) {
   for (const double up : {-1., 1.}) {
     const Mesh surface{{in_solid(both, {3.5, 4, 2 - up}), in_solid(both, {4.1, 4.6, 2 - up}),
                         in_solid(both, {4.4, 3.4, 2 - up})},
-                       {{0, 1, 2}}};
+                       {up > 0 ? Triangle{0, 1, 2} : Triangle{0, 2, 1}}};
     const double far = 2 + up * 2.5;  // beyond the outer face, which is 3 away from the inner one
     const Mesh there{{in_solid(both, {0, 0, far}), in_solid(both, {8, 0, far}), in_solid(both, {8, 8, far}),
                       in_solid(both, {0, 8, far})},
@@ -143,8 +143,31 @@ TEST(SurfaceThickness, BeginsOnAnEdgeOfTheSolid) {
   ThicknessOptions options;
   options.near = 0.02 / box.scale();
   const std::vector<Vec3> tilted{{0.6, 0, 0.8}};
-  EXPECT_NEAR(surface_thickness(box, surface, above, tilted, options)[0] * box.scale(), 4.5, 1e-3)
+  EXPECT_NEAR(surface_thickness(box, surface, above, tilted, options)[0] * box.scale(), 1 / 0.8, 1e-3)
       << "it leaves the box 2 up";
+}
+
+// A bent wall has no ridge: half of it counts, from both of its sides, whose optimal normal is that of the outer one; but not
+// along ways that are steep to the surface.
+TEST(SurfaceThickness, OfAWallWithoutSkeletonIsHalfOfIt) {
+  const Solid shell = make_solid(joined(make_sphere(5, 1280), reversed(make_sphere(4, 1280))));
+  const Mesh pole{{{0, 0, 4.5}}, {{0, 0, 0}}};
+  const auto at = [&](std::size_t t) {
+    const auto& [a, b, c] = shell.mesh.triangles[t];
+    return shell.centre +
+           (shell.scale() / 3) * (shell.mesh.points[a] + (shell.mesh.points[b] + shell.mesh.points[c]));
+  };
+  std::vector<Vec3> inward, steep;
+  for (std::size_t t = 0; t < shell.mesh.triangles.size(); ++t) {
+    inward.push_back(-1.0 * unit(at(t)));
+    steep.push_back(unit(inward.back() + 2.0 * unit(cross(at(t), Vec3{0.6, 0, 0.8}))));
+  }
+  const std::vector<double> found = thickness(shell, pole, inward), steeply = thickness(shell, pole, steep);
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    if (at(t).z > 0) continue;
+    EXPECT_NEAR(found[t], 0.5, 0.03);
+    EXPECT_NEAR(steeply[t], norm(at(t) - Vec3{0, 0, 4.5}), 1e-9);
+  }
 }
 
 TEST(SurfaceThickness, DoesNotDependOnThreadsAndStops) {
