@@ -89,7 +89,9 @@ std::uint64_t ridge_hash(const affskel::core::Solid& solid, const affskel::core:
   const RidgeBasis basis = ridge_basis(solid, lattice, field, threads);
   Hash hash;
   const RidgeSheet ridge = ridge_sheet(solid, lattice, field, basis);
-  add_sheet(ridge, hash);
+  RidgeSheet drawn = ridge;
+  draw_out(drawn);
+  add_sheet(drawn, hash);
   const CurveSkeleton curve = curve_skeleton(solid, lattice, basis, ridge);
   add_sheet(curve, hash);
   for (const double distance : curve.distance) hash.add(distance);

@@ -77,8 +77,7 @@ TEST(DrawnOutLines, StayInTheSolid) {
   };
   const std::vector<Vec3> bent{{10, 0, 0}, {9.2, 0.5, 0}, {8.9, 0, 0}, {8, 0, 0}};
   const std::vector<Segment> segments{{0, 1}, {1, 2}, {2, 3}};
-  EXPECT_EQ(drawn_out_lines({bent, neighbours(4, segments), 0.07, holed(20)}).size(),
-            3U);  // the other end is straight
+  EXPECT_EQ(drawn_out_lines({bent, neighbours(4, segments), 0.07, holed(20)}).size(), 4U);
   const std::vector<MovedVertex> round = drawn_out_lines({bent, neighbours(4, segments), 0.07, holed(9.6)});
   ASSERT_FALSE(round.empty());
   for (const MovedVertex& vertex : round) EXPECT_GT(vertex.vertex, 1U);

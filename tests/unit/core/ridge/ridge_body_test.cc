@@ -89,7 +89,8 @@ TEST(RidgeSheet, OfAMirrorSymmetricBodyIsMirrorSymmetric) {
     const Mesh mesh = make_body({.triangles = triangles});
     const double h = box_of(mesh).longest_side() / 150;
     const ErodedSolid body(mesh, axes(h), "triangles");
-    const RidgeSheet sheet = ridge_of(body);
+    RidgeSheet sheet = ridge_of(body);
+    draw_out(sheet);
     std::vector<Vec3> places;
     for (const SheetVertex& v : sheet.vertices) places.push_back(body.place(v.position));
     const PointIndex index(places);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/shapes/implicit_mesh.h"
 #include "core/shapes/shapes.h"
 #include "core/text/off_file.h"
 #include "derive/derived.h"
@@ -61,6 +64,49 @@ TEST(DeriveRidge, OfATorusIsItsAnnulus) {
     EXPECT_EQ(sheet.erosion(v), points.erosion(v));
   }
   EXPECT_GT(on_ridge, vertices / 2);
+}
+
+v1::TriangleMesh sheet_of(v1::Operator which, const PreparedJob& prepared, const std::string& field,
+                          double threshold = 0) {
+  v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
+  lease.mutable_surface()->mutable_skeleton()->set_operator_(which);
+  lease.mutable_surface()->mutable_skeleton()->set_threshold(threshold);
+  return parsed<v1::TriangleMesh>(derive(lease, prepared, field));
+}
+
+// Of a rod of radius 1 with the halves of balls about z = -4 and 4 at its ends: the curve's limbs end there.
+TEST(DeriveRidge, HasLinesThatLeadToTheTips) {
+  const auto rod = [](const core::Vec3& p) {
+    return norm(p - core::Vec3{0, 0, std::clamp(p.z, -4.0, 4.0)}) - 1;
+  };
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.2);
+  params.set_directions("sphere:320");
+  const PreparedJob prepared(
+      core::write_off(core::mesh_zero_set(rod, {{-1.5, -1.5, -5.5}, {1.5, 1.5, 5.5}, 0.3})), params);
+  const std::string field = finished_field(prepared);
+  const auto top = [](const v1::TriangleMesh& sheet) {
+    double z = 0;
+    for (int k = 2; k < sheet.xyz_size(); k += 3) z = std::max(z, sheet.xyz(k));
+    return z;
+  };
+  EXPECT_NEAR(top(sheet_of(v1::OPERATOR_RIDGE, prepared, field)), 4.5, 0.2);
+  EXPECT_NEAR(top(sheet_of(v1::OPERATOR_CURVE, prepared, field)), 4, 0.2);
+}
+
+// Of a coin, by a place alone.  What a higher threshold leaves out is no plate.
+TEST(DeriveCurve, SaysThatLinesTellLittleOfPlates) {
+  v1::ErosionParams params = sample_params();
+  params.mutable_sampling()->set_spacing(0.15);
+  params.set_directions("sphere:320");
+  const auto advice_of = [&](const core::Mesh& mesh, double threshold) {
+    const PreparedJob prepared(core::write_off(mesh), params);
+    return sheet_of(v1::OPERATOR_CURVE, prepared, finished_field(prepared), threshold).quality().advice();
+  };
+  const core::Mesh coin = core::make_cylinder(3, 0.6, 32);
+  EXPECT_NE(advice_of(coin, 0).find("lines tell little of plates"), std::string::npos);
+  EXPECT_EQ(advice_of(coin, 20).find("lines tell little of plates"), std::string::npos);
+  EXPECT_EQ(advice_of(core::make_box(1, 1, 6), 0).find("lines tell little of plates"), std::string::npos);
 }
 
 // A ball's, where E is greatest, was two triangles without area.
