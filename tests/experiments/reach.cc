@@ -110,6 +110,10 @@ void study(const NamedMesh& solid, const Setting& setting, Table& reaches, Table
                 static_cast<double>(found.ridge.betti.components) -
                     static_cast<double>(core::betti_numbers(job.solid).components),
                 0, 0);
+  report.expect(solid.name + ": ends that the ridge is short of", static_cast<double>(reach.short_of), 0, 0);
+  // The other's differs from run to run.
+  report.expect(solid.name + ": ends that the other comes nearer to by more than a spacing",
+                static_cast<double>(reach.farther), 0, 1);
 }
 
 }  // namespace
