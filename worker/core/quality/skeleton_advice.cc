@@ -162,6 +162,11 @@ std::optional<double> bare_share(const Lattice& lattice, std::span<const float> 
   return share > kMostBare ? std::optional(share) : std::nullopt;
 }
 
+Advice if_bare(const std::optional<double>& share, const std::string& farther_from) {
+  if (!share) return {};
+  return {base::rounded(100 * *share, 2) + " % of the solid are farther from " + farther_from, {}};
+}
+
 Advice on_significance(const ShockCensus& census, double significance) {
   const std::string lower = base::rounded(0.99 * census.max_piece_share, 3);
   return {"all " + std::to_string(census.strong) + " strong shocks lie in pieces below the significance " +
@@ -211,25 +216,18 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
 
 Advice bare_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
                          std::span<const std::uint32_t> points) {
-  const std::optional<double> share = bare_share(lattice, radius, places, points);
-  if (!share) return {};
-  return {
-      base::rounded(100 * *share, 2) +
-          " % of the solid are farther from it than twice the thickness there, for want of a ridge as strong as the "
-          "threshold: it may be weaker there, or none, as in walls that are bent, of a bowl or a mug, where E grows "
-          "up to the hollow side.",
-      {}};
+  return if_bare(
+      bare_share(lattice, radius, places, points),
+      "it than twice the thickness there, for want of a ridge as strong as the threshold: it may be weaker "
+      "there, or none, as in walls that are bent, of a bowl or a mug, where E grows up to the hollow side.");
 }
 
 Advice flat_solid_advice(const Lattice& lattice, std::span<const float> radius, std::span<const Vec3> places,
                          std::span<const std::uint32_t> points) {
-  const std::optional<double> share = bare_share(lattice, radius, places, points);
-  if (!share) return {};
-  return {
-      base::rounded(100 * *share, 2) +
-          " % of the solid are farther from the lines than twice the thickness there: lines tell little of plates "
-          "and shells. The operator ridge has their sheets.",
-      {}};
+  return if_bare(
+      bare_share(lattice, radius, places, points),
+      "the lines than twice the thickness there: lines tell little of plates and shells. The operator ridge "
+      "has their sheets.");
 }
 
 Advice little_ridge_advice(double share, double threshold) {
@@ -259,11 +257,10 @@ Advice stray_sheet_advice(const Lattice& lattice, std::span<const float> radius,
   if (places.empty()) return {};
   constexpr const char* kOther = " The operator ridge may have more.";
   if (const std::optional<double> share = bare_share(lattice, radius, places, points)) {
-    return {base::rounded(100 * *share, 2) +
-                " % of the solid are farther from it than twice the thickness there: equal chords of clearly "
-                "different directions are missing." +
-                kOther,
-            {}};
+    return if_bare(
+        share, std::string("it than twice the thickness there: equal chords of clearly different directions "
+                           "are missing.") +
+                   kOther);
   }
   const double whole = static_cast<double>(points_of_a_sheet(lattice.points));
   if (static_cast<double>(places.size()) < kLittleSheet * whole) {
