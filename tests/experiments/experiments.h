@@ -16,7 +16,7 @@ class Setting {
  public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
-  /// Of steadiness: noises of each level; of it, of reach and of limbs: mesh files in the place of solids of our own.
+  /// Of steadiness: noises of each level; of it, of reach, looks and limbs: mesh files in the place of solids of our own.
   unsigned seeds = 2;
   std::vector<std::string> meshes;
 
@@ -58,6 +58,8 @@ void barrier_experiment(const Setting& setting, Report& report);
 void steadiness_experiment(const Setting& setting, Report& report);
 /// Not published: how near skeletons come to the ends of solids, beside mean curvature skeletons.
 void reach_experiment(const Setting& setting, Report& report);
+/// Not published: rims, ways, triangles and symmetry of ridges.
+void looks_experiment(const Setting& setting, Report& report);
 /// Not published: one solid in several tessellations, and sets of directions against the infimum.
 void tessellation_experiment(const Setting& setting, Report& report);
 /// Not published: the infimum at single points against an independent search.

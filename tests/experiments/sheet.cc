@@ -58,11 +58,7 @@ Sheet ridge_sheet_of(const Job& job) {
   sheet.points = cloud_of(found.vertices, in_frame);
   sheet.mesh = {sheet.points.place, found.triangles};
   sheet.segments = found.segments;
-  for (std::size_t v = 0; v < found.vertices.size(); ++v) {
-    const core::SkeletonKind kind = found.vertices[v].kind;
-    if (kind == core::SkeletonKind::kRidge || kind == core::SkeletonKind::kCurve)
-      sheet.strong.push_back(sheet.points.place[v]);
-  }
+  for (const core::SheetVertex& vertex : found.vertices) sheet.kind.push_back(vertex.kind);
   sheet.betti = core::sheet_betti_numbers(sheet.mesh, sheet.segments);
   return sheet;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/contour/sheet_mesh.h"
 #include "core/mesh/mesh.h"
 #include "core/solid/betti_numbers.h"
 #include "job.h"
@@ -10,9 +11,9 @@ namespace affskel::experiments {
 struct Sheet {
   Cloud points;  ///< `chords`: where two equal chords meet, on lattice edges; `ridge`: the mesh's vertices
   core::Mesh mesh;
-  std::vector<core::Segment> segments;  ///< of the curves of `ridge`
-  std::vector<core::Vec3> strong;       ///< of `ridge`: the vertices that are no way's and no membrane's
-  core::BettiNumbers betti;             ///< of both
+  std::vector<core::Segment> segments;   ///< of the curves of `ridge`
+  std::vector<core::SkeletonKind> kind;  ///< of `ridge`: of each vertex
+  core::BettiNumbers betti;              ///< of both
 };
 
 /// With the operator's default options.

@@ -61,19 +61,18 @@ std::string text_of(const Shares& shares) {
   return format("%.1f / %.1f / %.1f %%", 100 * shares.there, 100 * shares.strong, 100 * shares.back);
 }
 
-double longest_side(const core::Mesh& mesh) {
-  double longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto [low, high] =
-        std::minmax_element(mesh.points.begin(), mesh.points.end(),
-                            [k](const core::Vec3& a, const core::Vec3& b) { return a[k] < b[k]; });
-    longest = std::max(longest, (*high)[k] - (*low)[k]);
+// Of the vertices that are no way's and no membrane's.
+std::vector<core::Vec3> ridge_places(const Sheet& sheet) {
+  std::vector<core::Vec3> places;
+  for (std::size_t v = 0; v < sheet.kind.size(); ++v) {
+    if (sheet.kind[v] == core::SkeletonKind::kRidge || sheet.kind[v] == core::SkeletonKind::kCurve)
+      places.push_back(sheet.points.place[v]);
   }
-  return longest;
+  return places;
 }
 
 void study(const Body& body, const Setting& setting, Table& table, Report& report) {
-  const double height = longest_side(body.mesh), diagonal = core::box_diagonal(body.mesh);
+  const double height = core::box_of(body.mesh).longest_side(), diagonal = core::box_diagonal(body.mesh);
   const double radius = std::sqrt(3.0) * height / kVoxelsPerHeight;
   const JobOptions options{height / (setting.quick ? kStepsPerHeight / 5 : kStepsPerHeight), "triangles",
                            core::FrameKind::kAxis, setting.threads};
@@ -86,7 +85,7 @@ void study(const Body& body, const Setting& setting, Table& table, Report& repor
       const Sheet other = ridge_sheet_of(noisy);
       const core::Similarity alike = core::similarity(sheet.points.place, other.points.place);
       level.seeds.push_back({alike.b_in_a.share_within(radius),
-                             core::similarity(sheet.points.place, other.strong).b_in_a.share_within(radius),
+                             core::similarity(sheet.points.place, ridge_places(other)).b_in_a.share_within(radius),
                              alike.a_in_b.share_within(radius)});
     }
     table.rows.push_back(
