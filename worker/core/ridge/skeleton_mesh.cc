@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/cheapest_ways.h"
+#include "core/base/disjoint_sets.h"
 #include "core/base/matrix3.h"
 #include "core/base/none.h"
 #include "core/base/unit.h"
@@ -25,7 +26,7 @@ namespace {
 
 using Cell = DualComplex::Cell;
 
-constexpr int kRimPasses = 12;        // of rims: over about two neighbours
+constexpr int kRimPasses = 24;        // of rims: over about three neighbours
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
@@ -52,9 +53,10 @@ class Placing {
     mesh_.vertices = drawn_rims(mesh_.vertices, cells_.rings, rim_neighbours_, from_.low);
     even_out_rims(context);
     find_ways_to_bound();
-    even_out(bound_, kFreePasses, context, [&](std::uint32_t v) { return kept_off_surface(v, drawn(v)); });
+    even_out(bound_, kFreePasses, context,
+             [&](std::uint32_t v, int) { return kept_off_surface(v, drawn(v)); });
     const std::vector<char> fixed = fixed_on_lines();
-    even_out(fixed, kLinePasses, context, [&](std::uint32_t v) { return unbent(v, fixed); });
+    even_out(fixed, kLinePasses, context, [&](std::uint32_t v, int) { return unbent(v, fixed); });
     for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v)
       if (!bound_[v]) take_values(v);
     draw_out_lines();
@@ -154,13 +156,31 @@ class Placing {
     std::vector<Vec3> before;
     for (const SheetVertex& vertex : mesh_.vertices) before.push_back(vertex.position);
     const auto moved = [&](std::uint32_t v) { return place(v) - before[v]; };
-    even_out(fixed, kRimPasses, context, [&](std::uint32_t v) {
-      if (!fixed_rim[v]) return kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_));
+    const std::vector<std::uint32_t> passes = passes_on_rim();
+    even_out(fixed, kRimPasses, context, [&](std::uint32_t v, int pass) {
+      if (!fixed_rim[v]) {
+        return pass < static_cast<int>(passes[v]) ? kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_))
+                                                  : Vec3{};
+      }
       Vec3 way = -moved(v);
       for (const std::uint32_t to : neighbours_[v])
         way = way + (1 / static_cast<double>(neighbours_[v].size())) * moved(to);
       return way;
     });
+  }
+
+  // A ring of n vertices would shrink to a point: in n^2 / 16 passes to half of its size.
+  std::vector<std::uint32_t> passes_on_rim() const {
+    DisjointSets rims(rim_neighbours_.size());
+    for (std::uint32_t v = 0; v < rim_neighbours_.size(); ++v)
+      for (const std::uint32_t to : rim_neighbours_[v]) rims.unite(v, to);
+    std::vector<std::uint32_t> length(rim_neighbours_.size(), 0), passes;
+    for (std::uint32_t v = 0; v < length.size(); ++v) ++length[rims.find(v)];
+    for (std::uint32_t v = 0; v < length.size(); ++v) {
+      const std::uint32_t n = std::min(length[rims.find(v)], 64U);
+      passes.push_back(n * n / 16);
+    }
+    return passes;
   }
 
   // Corners of the rim, and where something else begins, stay.
@@ -183,7 +203,7 @@ class Placing {
     return fixed;
   }
 
-  // In each pass every vertex that is not fixed goes along step(v), as far as the solid lets it in the end.
+  // In each pass every vertex that is not fixed goes along step(v, pass), as far as the solid lets it in the end.
   template <class Step>
   void even_out(const std::vector<char>& fixed, int passes, ExecutionContext* context, const Step& step) {
     std::vector<std::uint32_t> moving;
@@ -193,7 +213,7 @@ class Placing {
     for (std::size_t n = 0; n < moving.size(); ++n) before[n] = place(moving[n]);
     for (int pass = 0; pass < passes; ++pass) {
       throw_if_stopped(context);
-      for (std::size_t n = 0; n < moving.size(); ++n) moved[n] = place(moving[n]) + step(moving[n]);
+      for (std::size_t n = 0; n < moving.size(); ++n) moved[n] = place(moving[n]) + step(moving[n], pass);
       for (std::size_t n = 0; n < moving.size(); ++n) mesh_.vertices[moving[n]].position = moved[n];
     }
     StopCheck stop(context);
