@@ -20,7 +20,7 @@ namespace {
 constexpr double kPoints = 100'000, kRimTurn = 45, kWayTurn = 30;  // degrees
 constexpr double kNear = 0.3;                                      // of the local depth
 constexpr double kNoArea = 1e-5;                                   // squared spacings
-constexpr double kMostTurns = 2.1;                                 // percent
+constexpr double kMostTurns = 2;                                   // percent
 
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
