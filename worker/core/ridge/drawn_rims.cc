@@ -1,6 +1,9 @@
 #include "core/ridge/drawn_rims.h"
 
+#include <algorithm>
 #include <cstddef>
+
+#include "core/base/disjoint_sets.h"
 
 namespace affskel::core {
 
@@ -33,6 +36,21 @@ std::vector<SheetVertex> drawn_rims(const std::vector<SheetVertex>& vertices,
   for (std::size_t v = 0; v < met.size(); ++v)
     if (met[v] > 0) drawn[v].strength = low;
   return drawn;
+}
+
+std::vector<int> rim_passes(const Adjacency& rim_neighbours, int most) {
+  const auto count = static_cast<std::uint32_t>(rim_neighbours.size());
+  DisjointSets rims(count);
+  for (std::uint32_t v = 0; v < count; ++v)
+    for (const std::uint32_t to : rim_neighbours[v]) rims.unite(v, to);
+  std::vector<std::uint64_t> length(count, 0);
+  for (std::uint32_t v = 0; v < count; ++v) ++length[rims.find(v)];
+  std::vector<int> passes;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const std::uint64_t n = length[rims.find(v)];
+    passes.push_back(static_cast<int>(std::min<std::uint64_t>(n * n / 16, static_cast<std::uint64_t>(most))));
+  }
+  return passes;
 }
 
 }  // namespace affskel::core

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/cheapest_ways.h"
-#include "core/base/disjoint_sets.h"
 #include "core/base/matrix3.h"
 #include "core/base/none.h"
 #include "core/base/unit.h"
@@ -156,31 +155,15 @@ class Placing {
     std::vector<Vec3> before;
     for (const SheetVertex& vertex : mesh_.vertices) before.push_back(vertex.position);
     const auto moved = [&](std::uint32_t v) { return place(v) - before[v]; };
-    const std::vector<std::uint32_t> passes = passes_on_rim();
+    const std::vector<int> passes = rim_passes(rim_neighbours_, kRimPasses);
     even_out(fixed, kRimPasses, context, [&](std::uint32_t v, int pass) {
-      if (!fixed_rim[v]) {
-        return pass < static_cast<int>(passes[v]) ? kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_))
-                                                  : Vec3{};
-      }
+      if (!fixed_rim[v] && pass >= passes[v]) return Vec3{};
+      if (!fixed_rim[v]) return kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_));
       Vec3 way = -moved(v);
       for (const std::uint32_t to : neighbours_[v])
         way = way + (1 / static_cast<double>(neighbours_[v].size())) * moved(to);
       return way;
     });
-  }
-
-  // A ring of n vertices would shrink to a point: in n^2 / 16 passes to half of its size.
-  std::vector<std::uint32_t> passes_on_rim() const {
-    DisjointSets rims(rim_neighbours_.size());
-    for (std::uint32_t v = 0; v < rim_neighbours_.size(); ++v)
-      for (const std::uint32_t to : rim_neighbours_[v]) rims.unite(v, to);
-    std::vector<std::uint32_t> length(rim_neighbours_.size(), 0), passes;
-    for (std::uint32_t v = 0; v < length.size(); ++v) ++length[rims.find(v)];
-    for (std::uint32_t v = 0; v < length.size(); ++v) {
-      const std::uint32_t n = std::min(length[rims.find(v)], 64U);
-      passes.push_back(n * n / 16);
-    }
-    return passes;
   }
 
   // Corners of the rim, and where something else begins, stay.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -61,6 +63,37 @@ TEST(DrawnRims, AreOfTheRidgeAlone) {
   drawn = drawn_rims(grid.vertices, grid.rings, grid.rim, 6);
   EXPECT_NEAR(drawn[2].position.x, 2 - 2 / 3.0, 1e-12);
   EXPECT_NEAR(drawn[2].position.y, 2 / 3.0, 1e-12);
+}
+
+// Each pass draws a vertex half-way to the mean of its neighbours.
+TEST(RimPasses, LeaveRingsHalfOfTheirSize) {
+  for (std::uint32_t n = 4; n <= 40; ++n) {
+    std::vector<Segment> ring;
+    std::vector<Vec3> at;
+    for (std::uint32_t v = 0; v < n; ++v) {
+      ring.push_back({v, (v + 1) % n});
+      at.push_back({std::cos(2 * std::numbers::pi * v / n), std::sin(2 * std::numbers::pi * v / n), 0});
+    }
+    const std::vector<int> passes = rim_passes(neighbours(n, ring), 24);
+    for (int pass = 0; pass < passes[0]; ++pass) {
+      const std::vector<Vec3> before = at;
+      for (std::uint32_t v = 0; v < n; ++v)
+        at[v] = 0.5 * before[v] + 0.25 * (before[(v + 1) % n] + before[(v + n - 1) % n]);
+    }
+    EXPECT_GE(norm(at[0]), 0.499) << n;
+    EXPECT_LE(norm(at[0]), n < 20 ? 0.66 : 0.9) << n;
+    EXPECT_EQ(passes, std::vector<int>(n, passes[0])) << n;
+  }
+}
+
+TEST(RimPasses, AreAsManyAsAskedOnLongRims) {
+  std::vector<Segment> edges;  // of 4 and of 20, and a vertex on none
+  for (std::uint32_t v = 0; v < 4; ++v) edges.push_back({v, (v + 1) % 4});
+  for (std::uint32_t v = 0; v < 20; ++v) edges.push_back({4 + v, 4 + (v + 1) % 20});
+  const std::vector<int> passes = rim_passes(neighbours(25, edges), 24);
+  EXPECT_EQ(passes[0], 1);
+  EXPECT_EQ(passes[4], 24);
+  EXPECT_EQ(passes[24], 0);
 }
 
 }  // namespace
