@@ -16,7 +16,7 @@ class Setting {
  public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
-  /// Of steadiness: noises of each level; of it, of reach, looks and limbs: mesh files in the place of solids of our own.
+  /// Of steadiness: noises of each level; of it, of reach, looks, lattices and limbs: mesh files in the place of solids of our own.
   unsigned seeds = 2;
   std::vector<std::string> meshes;
 
@@ -60,6 +60,8 @@ void steadiness_experiment(const Setting& setting, Report& report);
 void reach_experiment(const Setting& setting, Report& report);
 /// Not published: rims, ways, triangles and symmetry of ridges.
 void looks_experiment(const Setting& setting, Report& report);
+/// Not published: ridges of sheared solids and on finer lattices.
+void lattice_experiment(const Setting& setting, Report& report);
 /// Not published: one solid in several tessellations, and sets of directions against the infimum.
 void tessellation_experiment(const Setting& setting, Report& report);
 /// Not published: the infimum at single points against an independent search.

@@ -34,6 +34,7 @@ constexpr Experiment kExperiments[] = {
     {"steadiness", steadiness_experiment},
     {"reach", reach_experiment},
     {"looks", looks_experiment},
+    {"lattices", lattice_experiment},
     {"limbs", limbs_experiment},
     {"tessellations", tessellation_experiment},
     {"confirmations", confirmation_experiment},
@@ -98,7 +99,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1U, 1000U))
       ->capture_default_str();
   app.add_option("--mesh", setting.meshes,
-                 "of steadiness, reach, looks and limbs: files in the place of solids of our own")
+                 "of steadiness, reach, looks, lattices and limbs: files in the place of solids of our own")
       ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
   try {

@@ -8,6 +8,7 @@
 #include "core/quality/similarity.h"
 #include "experiments.h"
 #include "job.h"
+#include "limbed_solids.h"
 #include "sheet.h"
 
 namespace affskel::experiments {
@@ -17,18 +18,14 @@ namespace {
 // radius within which two skeletons count as alike.
 constexpr double kStepsPerHeight = 180, kVoxelsPerHeight = 128;
 
-struct Body {
-  std::string name;
-  core::Mesh mesh;
-};
-
-std::vector<Body> bodies_of(const Setting& setting) {
-  std::vector<Body> bodies;
+std::vector<NamedMesh> bodies_of(const Setting& setting) {
+  std::vector<NamedMesh> bodies;
   for (const std::string& file : setting.meshes) bodies.push_back({file, client::read_shape(file).mesh()});
   if (!bodies.empty()) return bodies;
   for (const std::uint32_t triangles :
        setting.quick ? std::vector<std::uint32_t>{292} : std::vector<std::uint32_t>{292, 1000, 5000})
     bodies.push_back({format("body of %u", triangles), setting.body(triangles)});
+  if (!setting.quick) bodies.push_back({"heavy body of 500", heavy_body(500)});
   return bodies;
 }
 
@@ -71,7 +68,7 @@ std::vector<core::Vec3> ridge_places(const Sheet& sheet) {
   return places;
 }
 
-void study(const Body& body, const Setting& setting, Table& table, Report& report) {
+void study(const NamedMesh& body, const Setting& setting, Table& table, Report& report) {
   const double height = core::box_of(body.mesh).longest_side(), diagonal = core::box_diagonal(body.mesh);
   const double radius = std::sqrt(3.0) * height / kVoxelsPerHeight;
   const JobOptions options{height / (setting.quick ? kStepsPerHeight / 5 : kStepsPerHeight), "triangles",
@@ -84,9 +81,10 @@ void study(const Body& body, const Setting& setting, Table& table, Report& repor
       const Job noisy = compute(core::perturb(body.mesh, {level.sigma * diagonal, seed}), options);
       const Sheet other = ridge_sheet_of(noisy);
       const core::Similarity alike = core::similarity(sheet.points.place, other.points.place);
-      level.seeds.push_back({alike.b_in_a.share_within(radius),
-                             core::similarity(sheet.points.place, ridge_places(other)).b_in_a.share_within(radius),
-                             alike.a_in_b.share_within(radius)});
+      level.seeds.push_back(
+          {alike.b_in_a.share_within(radius),
+           core::similarity(sheet.points.place, ridge_places(other)).b_in_a.share_within(radius),
+           alike.a_in_b.share_within(radius)});
     }
     table.rows.push_back(
         {body.name, std::to_string(clean.lattice.points), std::to_string(sheet.points.size()),
@@ -121,7 +119,7 @@ void steadiness_experiment(const Setting& setting, Report& report) {
   Table table{{"body", "sample points", "vertices", "pieces, tunnels", "chance", "noise",
                "mean there / ridge / back", "worst there / ridge / back"},
               {}};
-  for (const Body& body : bodies_of(setting)) study(body, setting, table, report);
+  for (const NamedMesh& body : bodies_of(setting)) study(body, setting, table, report);
   report.table(table);
 }
 
