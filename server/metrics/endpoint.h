@@ -22,7 +22,7 @@ struct EndpointSources {
 
 struct EndpointOptions {
   /// At a time; where there are more, those go that ask nothing.
-  std::size_t connections = 64;
+  std::size_t connections = 192;
   /// A peer that neither sends nor takes anything for so long is given up.
   std::chrono::milliseconds patience{5000};
 };
