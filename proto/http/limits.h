@@ -18,7 +18,7 @@ struct PlaceLimits {
   /// For so long a connection that does nothing counts as one that is about to.
   std::chrono::milliseconds grace{500};
   /// So long a stranger that says nothing yet keeps a place, to be greeted and heard across a slow network, unless
-  /// its own address has half of them.  Who comes meanwhile waits.
+  /// its own address has half of them.  Who comes meanwhile waits: the fewer connections, the longer.
   std::chrono::milliseconds stay{250};
 };
 

@@ -25,12 +25,12 @@ CallLimits limits_for(std::uint64_t open_files) {
   const std::uint64_t reserve = std::min(kReserved, open_files / 4);
   limits.connections =
       std::clamp<std::uint64_t>((open_files - reserve) / kDescriptorsPerConnection, 1, kMaxConnections);
-  // Two descriptors to a download or an input, so that all of them together take a quarter at most, and half
-  // of the reserve where descriptors are few.
+  // Two descriptors to a download or an input, one to a scrape: of what is left, an eighth stays at least.
   const std::uint64_t taken = kDescriptorsPerConnection * limits.connections;
   const std::uint64_t left = open_files > taken ? open_files - taken : 0;
   limits.downloads = std::clamp<std::uint64_t>(left / 4, 1, limits.downloads);
   limits.inputs = std::clamp<std::uint64_t>(left / 8, 1, limits.inputs);
+  limits.scrapes = std::clamp<std::uint64_t>(left / 8, 1, limits.scrapes);
   return limits;
 }
 

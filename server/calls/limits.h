@@ -19,6 +19,7 @@ struct CallLimits {
   std::size_t results = 256;    ///< results being received
   std::size_t inputs = 64;      ///< inputs of tasks being sent
   std::size_t polls = 1024;     ///< workers that wait for work
+  std::size_t scrapes = 192;    ///< connections that ask for metrics or health
 
   std::uint64_t records_bytes = std::uint64_t{128} << 20;  ///< of reports, before they are merged
   std::uint64_t grpc_bytes = std::uint64_t{512} << 20;     ///< that gRPC may take for what is on its way

@@ -26,10 +26,11 @@ http::Response text(int status, const char* type, std::string body) {
   return {status, {{"Content-Type", type}}, std::move(body), {}, {}};
 }
 
+}  // namespace
+
 http::Limits limits_of(const EndpointOptions& options) {
   http::Limits limits;
-  // Who scrapes is near, and heard soon; with these few places others would wait for long.
-  limits.places = {.connections = options.connections, .for_known = 0, .stay = std::chrono::milliseconds(50)};
+  limits.places = {.connections = options.connections, .for_known = 0};
   // Of each kind all connections may wait, and as many whose place has just gone to others and that leave in a
   // moment: every peer is answered.
   limits.waiting = limits.waiting_of_one = 2 * options.connections;
@@ -38,8 +39,6 @@ http::Limits limits_of(const EndpointOptions& options) {
   limits.header = limits.idle = limits.pace.window = options.patience;
   return limits;
 }
-
-}  // namespace
 
 class MetricsEndpoint::Service {
  public:

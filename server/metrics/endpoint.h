@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "http/limits.h"
 #include "wire/address.h"
 
 namespace affskel::server {
@@ -21,11 +22,15 @@ struct EndpointSources {
 };
 
 struct EndpointOptions {
-  /// At a time; where there are more, those go that ask nothing.
-  std::size_t connections = 64;
+  /// At a time; where there are more, those go that ask nothing.  With few of them newcomers wait for long, until
+  /// those before them had the time to ask; see http::PlaceLimits::stay.
+  std::size_t connections = 192;
   /// A peer that neither sends nor takes anything for so long is given up.
   std::chrono::milliseconds patience{5000};
 };
+
+/// What an endpoint takes of its peers.
+http::Limits limits_of(const EndpointOptions& options);
 
 /// Serves GET /metrics, in the text format of Prometheus, and GET /healthz, 200 or 503, over HTTP, without
 /// asking for a name.  Has threads of its own, one for each of both: a peer that is slow to ask or to read

@@ -158,7 +158,7 @@ void Server::start(const ServerOptions& options) {
       room_, *store_, registry_, *jobs_, hub_,
       ErosionServiceImpl::Facts{options.data_dir, static_cast<std::uint64_t>(clock_.wall_ms())});
   hub_.start([this](const std::string& id) { return jobs_->load(id); }, [this] { queue_->on_work(); });
-  if (options.metrics) serve_metrics(*options.metrics);
+  if (options.metrics) serve_metrics(*options.metrics, options.limits.scrapes);
   serve(options);
   maintenance_ = std::thread([this] { maintain(); });
   ticker_ = std::thread([this] { tick(); });
@@ -193,7 +193,7 @@ std::optional<wire::Address> Server::metrics_address() const {
 }
 
 /// Each kind of figures from where it is: what has happened since the start, and what is there now.
-void Server::serve_metrics(const wire::Address& address) {
+void Server::serve_metrics(const wire::Address& address, std::size_t scrapes) {
   const auto started_ms = static_cast<std::uint64_t>(clock_.wall_ms());
   const auto collect = [this, started_ms] {
     std::vector<prometheus::MetricFamily> families = room_.metrics.collect();
@@ -203,7 +203,8 @@ void Server::serve_metrics(const wire::Address& address) {
     return families;
   };
   endpoint_ =
-      std::make_unique<MetricsEndpoint>(address, EndpointSources{collect, [this] { return trouble(); }});
+      std::make_unique<MetricsEndpoint>(address, EndpointSources{collect, [this] { return trouble(); }},
+                                        EndpointOptions{.connections = scrapes});
 }
 
 /// Reads the database, as any call would.

@@ -89,7 +89,7 @@ class Server {
  private:
   void start(const ServerOptions& options);
   void serve(const ServerOptions& options);
-  void serve_metrics(const wire::Address& address);
+  void serve_metrics(const wire::Address& address, std::size_t scrapes);
   std::string trouble();
   void keep_secrets();
   void maintain();

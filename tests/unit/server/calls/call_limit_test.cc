@@ -21,9 +21,11 @@ TEST(CallLimitsTest, AlwaysLeaveDescriptorsToWorkersAndTheDatabase) {
     EXPECT_LE(limits.downloads, 256U) << open_files;
     EXPECT_GE(limits.inputs, 1U) << open_files;
     EXPECT_GE(limits.connections, 1U) << open_files;
-    // Connections take three, downloads and inputs two each, and a sixteenth is left beyond them.
-    EXPECT_LE(3 * limits.connections + 2 * (limits.downloads + limits.inputs) +
-                  std::min<std::uint64_t>(64, open_files / 16),
+    EXPECT_GE(limits.scrapes, 1U) << open_files;
+    EXPECT_LE(limits.scrapes, 192U) << open_files;
+    // Connections take three, downloads and inputs two each, and one in 32 is left beyond them and the scrapes.
+    EXPECT_LE(3 * limits.connections + 2 * (limits.downloads + limits.inputs) + limits.scrapes +
+                  std::min<std::uint64_t>(32, open_files / 32),
               open_files + 3)
         << open_files;
   }
