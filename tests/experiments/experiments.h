@@ -27,6 +27,8 @@ class Setting {
 
   /// A body of our own (core/body.h), made when first asked for and kept.
   const core::Mesh& body(std::uint32_t triangles) const;
+  /// That of 500 triangles, wider, deeper and shorter: 1.4 times as heavy, with short limbs.
+  core::Mesh heavy_body() const;
 
  private:
   std::shared_ptr<std::map<std::uint32_t, core::Mesh>> bodies_ =

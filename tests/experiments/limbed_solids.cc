@@ -70,15 +70,6 @@ ImplicitFunction animal() {
                 {{-0.85, 0, 0.1}, {-1.4, 0, -0.3}, 0.06}});
 }
 
-ImplicitFunction heavy() {
-  return bones({{{0, 0, -0.25}, {0, 0, 0.3}, 0.45},
-                {{-0.22, 0, -0.5}, {-0.26, 0, -0.9}, 0.2},
-                {{0.22, 0, -0.5}, {0.26, 0, -0.9}, 0.2},
-                {{-0.35, 0, 0.4}, {-0.8, 0, -0.05}, 0.15},
-                {{0.35, 0, 0.4}, {0.8, 0, -0.05}, 0.15},
-                {{0, 0, 0.6}, {0, 0, 0.95}, 0.24}});
-}
-
 ImplicitFunction tree() {
   return bones({{{0, 0, -1}, {0, 0, 0}, 0.15},
                 {{0, 0, 0}, {0.5, 0, 0.5}, 0.11},
@@ -130,18 +121,7 @@ ImplicitFunction pierced_block() {
   };
 }
 
-core::Mesh mesh_of(const ImplicitFunction& function, std::size_t triangles) {
-  core::Mesh mesh = core::mesh_zero_set(function, {{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}, kEdge});
-  core::fair_onto(function, 0.01 * kEdge, 3, mesh);
-  for (Vec3& p : mesh.points) p.x += 2;  // the collapse keeps to x >= 0
-  return core::collapse_edges(mesh, triangles);
-}
-
 }  // namespace
-
-core::Mesh heavy_body(std::size_t triangles) {
-  return mesh_of(heavy(), triangles);
-}
 
 std::vector<NamedMesh> limbed_solids(std::size_t triangles) {
   const std::vector<std::pair<std::string, ImplicitFunction>> functions{
@@ -155,7 +135,12 @@ std::vector<NamedMesh> limbed_solids(std::size_t triangles) {
       {"hollow ball", [](const Vec3& p) { return std::abs(norm(p) - 0.8) - 0.2; }},
       {"torus", [](const Vec3& p) { return ring(p, 0.8, 0.3); }}};
   std::vector<NamedMesh> solids;
-  for (const auto& [name, function] : functions) solids.push_back({name, mesh_of(function, triangles)});
+  for (const auto& [name, function] : functions) {
+    core::Mesh mesh = core::mesh_zero_set(function, {{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}, kEdge});
+    core::fair_onto(function, 0.01 * kEdge, 3, mesh);
+    for (Vec3& p : mesh.points) p.x += 2;  // the collapse keeps to x >= 0
+    solids.push_back({name, core::collapse_edges(mesh, triangles)});
+  }
   return solids;
 }
 

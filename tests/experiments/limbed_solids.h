@@ -13,10 +13,6 @@ struct NamedMesh {
   core::Mesh mesh;
 };
 
-/// A heavy body with short arms and legs, about 2 high.
-/// @param triangles even.
-core::Mesh heavy_body(std::size_t triangles);
-
 /// Solids with limbs, handles and cavities, each about 2 across: a hand, an animal, a tree, a comb, a trefoil
 /// knot, an amphora, a block with three holes, a hollow ball, a torus.
 /// @param triangles of each, even.
