@@ -48,7 +48,7 @@ std::vector<int> rim_passes(const Adjacency& rim_neighbours, int most) {
   std::vector<int> passes;
   for (std::uint32_t v = 0; v < count; ++v) {
     const std::uint64_t n = length[rims.find(v)];
-    passes.push_back(static_cast<int>(std::min<std::uint64_t>(n * n / 16, static_cast<std::uint64_t>(most))));
+    passes.push_back(static_cast<int>(std::min<std::uint64_t>(n * n / 32, static_cast<std::uint64_t>(most))));
   }
   return passes;
 }

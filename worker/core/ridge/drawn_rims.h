@@ -19,8 +19,8 @@ std::vector<SheetVertex> drawn_rims(const std::vector<SheetVertex>& vertices,
                                     const Adjacency& rim_neighbours, double low);
 
 /// How often vertices on rims are to be drawn half-way to the mean of their two neighbours there, to even the rims out:
-/// `most` times, on one of n vertices n^2 / 16 at most.  A ring of them then keeps half of its size; it would become a
-/// point.
+/// `most` times, on one of n vertices n^2 / 32 at most.  A ring of them then keeps about three quarters of its size; it would
+/// become a point.
 /// @return per vertex.
 std::vector<int> rim_passes(const Adjacency& rim_neighbours, int most);
 

@@ -26,6 +26,7 @@ namespace {
 using Cell = DualComplex::Cell;
 
 constexpr int kRimPasses = 24;        // of rims: over about three neighbours
+constexpr int kSurfacePasses = 72;    // of what lies within: it goes on following the rim
 constexpr int kFreePasses = 60;       // of ways and membranes: over about five neighbours
 constexpr double kNearCrest = 0.8;    // how far a vertex may be from the crest of P that it goes to, radii
 constexpr double kLongestStep = 0.1;  // of a vertex to the crest of P in one pass, spacings
@@ -156,7 +157,7 @@ class Placing {
     for (const SheetVertex& vertex : mesh_.vertices) before.push_back(vertex.position);
     const auto moved = [&](std::uint32_t v) { return place(v) - before[v]; };
     const std::vector<int> passes = rim_passes(rim_neighbours_, kRimPasses);
-    even_out(fixed, kRimPasses, context, [&](std::uint32_t v, int pass) {
+    even_out(fixed, kSurfacePasses, context, [&](std::uint32_t v, int pass) {
       if (!fixed_rim[v] && pass >= passes[v]) return Vec3{};
       if (!fixed_rim[v]) return kept_off_surface(v, 0.5 * way_to_mean(v, rim_neighbours_));
       Vec3 way = -moved(v);
