@@ -16,9 +16,7 @@
 namespace affskel::experiments {
 namespace {
 
-using core::FrameKind;
-
-constexpr double kPoints = 100'000, kVoxels = 128;
+constexpr double kVoxels = 128;
 // Percent.
 constexpr double kLeastAxis = 95, kLeastAffine = 99.5, kLeastHalf = 99;
 // Where the lattice has so many spacings to the surface, it has four points across.
@@ -68,12 +66,10 @@ Shares at_half_the_spacing(const core::Mesh& mesh, JobOptions options, double ra
 
 void study(const NamedMesh& solid, const Setting& setting, Table& table, Report& report) {
   const double radius = std::sqrt(3.0) * core::box_of(solid.mesh).longest_side() / kVoxels;
-  const double points = setting.quick ? 0.05 * kPoints : kPoints;
-  JobOptions options{std::cbrt(core::make_solid(solid.mesh).volume / points), "triangles", FrameKind::kAxis,
-                     setting.threads};
+  JobOptions options = comparison_options(solid.mesh, setting);
   const Shares half = at_half_the_spacing(solid.mesh, options, radius);
   const Shares axis = under_shear(solid.mesh, options, radius);
-  options.frame = FrameKind::kAffine;
+  options.frame = core::FrameKind::kAffine;
   const Shares affine = under_shear(solid.mesh, options, radius);
   table.rows.push_back({solid.name, half.text(), axis.text(), affine.text()});
   const bool body = solid.name.find("body") != std::string::npos;

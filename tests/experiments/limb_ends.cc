@@ -171,6 +171,12 @@ std::vector<NamedMesh> solids_to_compare(const Setting& setting) {
   return solids;
 }
 
+JobOptions comparison_options(const core::Mesh& mesh, const Setting& setting) {
+  const double points = setting.quick ? 5'000 : 100'000;
+  return {std::cbrt(core::make_solid(mesh).volume / points), "triangles", core::FrameKind::kAxis,
+          setting.threads};
+}
+
 std::vector<core::Vec3> points_along(std::span<const core::Vec3> places,
                                      std::span<const core::Segment> segments, double step) {
   std::vector<core::Vec3> points(places.begin(), places.end());

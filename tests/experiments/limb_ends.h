@@ -20,6 +20,9 @@ inline constexpr double kLongLimb = 0.08;
 /// The meshes of the setting, or solids of our own.
 std::vector<NamedMesh> solids_to_compare(const Setting& setting);
 
+/// Of the jobs compared: 100,000 sample points, the mesh's normals, the frame `axis`.  Quick: a twentieth of them.
+JobOptions comparison_options(const core::Mesh& mesh, const Setting& setting);
+
 /// The ends of limbs longer than `length`: peaks of the way along the surface from the place of the greatest E.  The
 /// crotch, the back and the calves are none, nor is the far side of a ring.
 std::vector<core::Vec3> ends_of_limbs(const Job& job, double length);

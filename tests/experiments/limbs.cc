@@ -18,7 +18,7 @@
 namespace affskel::experiments {
 namespace {
 
-constexpr double kPoints = 100'000, kNoise = 0.003;
+constexpr double kNoise = 0.003;
 
 CurveSkeleton curve_of(const Job& job) {
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
@@ -87,9 +87,7 @@ std::string topology_text(const core::BettiNumbers& b) {
 
 void study(const NamedMesh& solid, const Setting& setting, Table& table, Report& report) {
   const double longest = core::box_of(solid.mesh).longest_side();
-  const JobOptions options{
-      std::cbrt(core::make_solid(solid.mesh).volume / (setting.quick ? 0.05 * kPoints : kPoints)),
-      "triangles", core::FrameKind::kAxis, setting.threads};
+  const JobOptions options = comparison_options(solid.mesh, setting);
   const Job job = compute(solid.mesh, options);
   const core::Mesh noisy_mesh = core::perturb(solid.mesh, {kNoise * core::box_diagonal(solid.mesh), 1});
   const Job noisy = compute(noisy_mesh, options);

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/mesh/edges.h"
+#include "core/mesh/map_mesh.h"
 #include "core/ridge/local_depth.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
@@ -17,12 +17,10 @@
 namespace affskel::experiments {
 namespace {
 
-constexpr double kPoints = 100'000, kRimTurn = 45, kWayTurn = 30;  // degrees
-constexpr double kNear = 0.3;                                      // of the local depth
-constexpr double kNoArea = 1e-5;                                   // squared spacings
-constexpr double kMostTurns = 2;                                   // percent
-
-using Neighbours = std::vector<std::vector<std::uint32_t>>;
+constexpr double kRimTurn = 45, kWayTurn = 30;  // degrees
+constexpr double kNear = 0.3;                   // of the local depth
+constexpr double kNoArea = 1e-5;                // squared spacings
+constexpr double kMostTurns = 2;                // percent
 
 // How many places there are of a kind, and of how many something is so.
 struct Share {
@@ -38,29 +36,18 @@ struct Share {
   std::string text() const { return format("%zu of %zu", with, all); }
 };
 
-void join(Neighbours& neighbours, std::uint32_t a, std::uint32_t b) {
-  neighbours[a].push_back(b);
-  neighbours[b].push_back(a);
-}
-
-Neighbours along_rims(const core::Mesh& mesh) {
-  Neighbours neighbours(mesh.points.size());
+core::Adjacency along_rims(const core::Mesh& mesh) {
+  std::vector<core::Segment> rims;
   core::Edges(mesh.points.size(), mesh.triangles)
       .for_each([&](std::uint32_t a, std::uint32_t b, const auto& sides) {
-        if (sides.size() == 1) join(neighbours, a, b);
+        if (sides.size() == 1) rims.push_back({a, b});
       });
-  return neighbours;
-}
-
-Neighbours along_lines(const Sheet& sheet) {
-  Neighbours neighbours(sheet.mesh.points.size());
-  for (const auto& [a, b] : sheet.segments) join(neighbours, a, b);
-  return neighbours;
+  return core::neighbours(mesh.points.size(), rims);
 }
 
 // Of the vertices with two neighbours: those at which the line turns by more than the angle, in degrees.
 template <class Counts>
-Share turns(const std::vector<core::Vec3>& at, const Neighbours& neighbours, double angle,
+Share turns(const std::vector<core::Vec3>& at, const core::Adjacency& neighbours, double angle,
             const Counts& counts) {
   Share share;
   const double least = std::cos(angle * std::numbers::pi / 180);
@@ -98,12 +85,6 @@ core::Vec3 mirrored(const core::Vec3& place) {
   return {-place.x, place.y, place.z};
 }
 
-core::Mesh mirrored(core::Mesh mesh) {
-  for (core::Vec3& point : mesh.points) point = mirrored(point);
-  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
-  return mesh;
-}
-
 // Of the vertices, those that the other skeleton, mirrored, is farther from than a spacing.
 Share unlike(const Sheet& sheet, const Sheet& other, double spacing) {
   const core::PointIndex index(other.mesh.points);
@@ -113,14 +94,13 @@ Share unlike(const Sheet& sheet, const Sheet& other, double spacing) {
 }
 
 void study(const NamedMesh& solid, const Setting& setting, Table& table, Report& report) {
-  const double volume = core::make_solid(solid.mesh).volume;
-  const JobOptions options{std::cbrt(volume / (setting.quick ? 0.05 * kPoints : kPoints)), "triangles",
-                           core::FrameKind::kAxis, setting.threads};
+  const JobOptions options = comparison_options(solid.mesh, setting);
   const Job job = compute(solid.mesh, options);
-  const Sheet sheet = ridge_sheet_of(job), image = ridge_sheet_of(compute(mirrored(solid.mesh), options));
+  const Sheet sheet = ridge_sheet_of(job),
+              image = ridge_sheet_of(compute(core::map_mesh(core::scaling(-1, 1, 1), solid.mesh), options));
   const auto& at = sheet.mesh.points;
   const Share rims = turns(at, along_rims(sheet.mesh), kRimTurn, [](std::uint32_t) { return true; });
-  const Neighbours lines = along_lines(sheet);
+  const core::Adjacency lines = core::neighbours(at.size(), sheet.segments);
   const auto is_way = [&](std::uint32_t v) { return sheet.kind[v] == core::SkeletonKind::kWay; };
   const Share ways = turns(at, lines, kWayTurn, is_way);
   const Share curves = turns(at, lines, kWayTurn, [&](std::uint32_t v) { return !is_way(v); });

@@ -19,7 +19,7 @@
 namespace affskel::experiments {
 namespace {
 
-constexpr double kPoints = 100'000, kNoise = 0.003;
+constexpr double kNoise = 0.003;
 
 struct Skeletons {
   Sheet ridge;
@@ -88,9 +88,7 @@ Reach reach_of(const Job& job, const Skeletons& found, double longest) {
 
 void study(const NamedMesh& solid, const Setting& setting, Table& reaches, Table& others, Report& report) {
   const double longest = core::box_of(solid.mesh).longest_side();
-  const double volume = core::make_solid(solid.mesh).volume;
-  const JobOptions options{std::cbrt(volume / (setting.quick ? 0.05 * kPoints : kPoints)), "triangles",
-                           core::FrameKind::kAxis, setting.threads};
+  const JobOptions options = comparison_options(solid.mesh, setting);
   const Job job = compute(solid.mesh, options);
   const Skeletons found = skeletons_of(job);
   const Reach reach = reach_of(job, found, longest);
