@@ -66,7 +66,7 @@ class BucketQueue {
   static constexpr std::size_t kNear = 4096;
 
  private:
-  static constexpr std::size_t kItems = 32, kBlocks = 64;  // of a block, and blocks made at a time
+  static constexpr std::size_t kItems = 8, kBlocks = 256;  // of a block, and blocks made at a time
 
   struct Block {
     std::array<Item, kItems> items{};

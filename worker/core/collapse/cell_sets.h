@@ -41,52 +41,43 @@ class CellValues {
 class CellBytes {
  public:
   explicit CellBytes(const DualComplex& complex) {
-    std::uint32_t rows = 0;
+    std::size_t rows = 0;
     for (std::uint32_t first = 0; first < complex.cubes(); first += kGroup) {
-      bool inner = true;
+      std::uint32_t own = 0;
       for (std::uint32_t cube = first; cube < std::min(first + kGroup, complex.cubes()); ++cube)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          inner = inner && complex.neighbour(cube, axis, 0) != kNone;
-      groups_.push_back({rows, inner ? kUpper : 27});
-      rows += groups_.back().places;
+        own |= complex.own_places(cube);
+      const bool inner = (own & ~DualComplex::kUpperPlaces) == 0;
+      groups_.push_back(2 * rows + inner);
+      rows += inner ? kUpper : 27;
     }
-    bytes_.assign(kGroup * std::size_t{rows}, 0);
-  }
-
-  /// Whether a place of a cube may be a cell's own.
-  bool may_own(std::uint32_t cube, std::uint32_t place) const {
-    return kSlot[place] < groups_[cube / kGroup].places;
+    bytes_.assign(kGroup * rows, 0);
   }
 
   std::uint8_t& operator[](DualComplex::Cell cell) { return bytes_[index(cell)]; }
   std::uint8_t operator[](DualComplex::Cell cell) const { return bytes_[index(cell)]; }
 
  private:
-  static constexpr std::uint32_t kGroup = 8;  // cubes
+  static constexpr std::uint32_t kGroup = 4;  // cubes
   static constexpr std::uint32_t kUpper = 8;  // places of a cube that are at no lower end
 
   // Of each place: those at no lower end first.
   static constexpr std::array<std::uint8_t, 27> kSlot = [] {
     std::array<std::uint8_t, 27> result{};
     std::uint8_t upper = 0, other = kUpper;
-    for (std::uint32_t place = 0; place < 27; ++place) {
-      const bool lower = place / 9 == 0 || place / 3 % 3 == 0 || place % 3 == 0;
-      result[place] = lower ? other++ : upper++;
-    }
+    for (std::uint32_t place = 0; place < 27; ++place)
+      result[place] = (DualComplex::kUpperPlaces >> place & 1U) != 0 ? upper++ : other++;
     return result;
   }();
 
   std::size_t index(DualComplex::Cell cell) const {
     const std::uint32_t cube = DualComplex::cube_of(cell);
-    const Group& group = groups_[cube / kGroup];
-    return kGroup * std::size_t{group.first} + group.places * (cube % kGroup) +
-           kSlot[DualComplex::place_of(cell)];
+    const std::uint64_t group = groups_[cube / kGroup];
+    const std::uint32_t places = (group & 1) != 0 ? kUpper : 27;
+    return kGroup * (group >> 1) + places * (cube % kGroup) + kSlot[DualComplex::place_of(cell)];
   }
 
-  struct Group {
-    std::uint32_t first = 0, places = 0;  // of a cube; `first` counts those of groups before
-  };
-  std::vector<Group> groups_;
+  std::vector<std::uint64_t>
+      groups_;  // twice the places of a cube in each before, and whether this has the upper alone
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -21,7 +21,7 @@ class Order {
       if (way_here < kNoWay) farthest_ = std::max(farthest_, static_cast<double>(way_here));
   }
 
-  double time(Cell, Cell coface, double) const {
+  Collapsing::Due due(Cell, Cell coface, double) const {
     const std::uint32_t cube = DualComplex::cube_of(coface), place = DualComplex::place_of(coface);
     double sum = static_cast<double>(way_[cube]), count = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -31,14 +31,14 @@ class Order {
       sum += static_cast<double>(way_[beside]);
       ++count;
     }
-    return std::max(0.0, farthest_ - sum / count);
+    return {std::max(0.0, farthest_ - sum / count)};
   }
   // Ways grow faster and faster towards the surface: lines slid along it, instead of coming off.
   double level(Cell cell) const {
     return -value_at<Continued::kAcrossBoundary>(
         complex_, cell, [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); });
   }
-  void removed(Cell, Cell, double) {}
+  void removed(Cell, Cell, double, bool) {}
   void bared(Cell, double) {}
 
  private:
@@ -63,9 +63,9 @@ void give_up(const DualComplex& complex, std::span<const Cell> own, Cell square,
 
 // What is free goes, in any order.
 struct AnyOrder {
-  static double time(Cell, Cell, double) { return 0; }
+  static Collapsing::Due due(Cell, Cell, double) { return {}; }
   static double level(Cell) { return 0; }
-  static void removed(Cell, Cell, double) {}
+  static void removed(Cell, Cell, double, bool) {}
   static void bared(Cell, double) {}
 };
 

@@ -22,13 +22,19 @@ class Collapsing {
   /// Times are told apart by this much.
   static constexpr double kStep = 0.125;
 
+  /// When a pair is removed, >= 0, and a mark of its that removed() is told.
+  struct Due {
+    double time = 0;
+    bool mark = false;
+  };
+
   /// Of all cells of a complex.
   /// @throws CoreError kCancelled, here and in run(), when the context asks to stop.
   Collapsing(const DualComplex& complex, ExecutionContext* context)
       : complex_(complex), context_(context), states_(complex) {
     StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
-      state(cell) = static_cast<std::uint8_t>(kThere | complex.cofaces(cell).count);
+      state(cell) = static_cast<std::uint8_t>(kThere | complex.coface_count(cell));
       stop.did(20);
     });
   }
@@ -62,23 +68,23 @@ class Collapsing {
 
   CellSet cells() const {
     CellSet result(complex_);
-    for_each_name([&](Cell cell) {
+    complex_.for_each_cell([&](Cell cell) {
       if (has(cell)) result.insert(cell);
     });
     return result;
   }
 
   /// Collapses as far as it goes, beginning with what is free now.
-  /// @param rules  time(cell, coface, now): when a pair that became free at `now` is removed, >= 0; pairs leave by time,
+  /// @param rules  due(cell, coface, now): when a pair that became free at `now` is removed; pairs leave by time,
   ///   those of one time in waves, each what the one before has freed, and of cells with one coface the first by
-  ///   level(cell) and rank_of(), so that with levels that know no order of axes a mirror image is collapsed to the
+  ///   level(cell) and CellRank, so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
-  ///   removed(cell, coface, now), in a wave in any order; bared(cell, now): the last coface of a cell that stays was
-  ///   removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is taken out by
+  ///   removed(cell, coface, now, mark of the pair), in a wave in any order; bared(cell, now): the last coface of a
+  ///   cell that stays was removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is taken out by
   ///   itself, or nothing.
   template <class Rules>
   void run(Rules& rules) {
-    for_each_name([&](Cell cell) { offer(cell, 0, rules); });
+    complex_.for_each_cell([&](Cell cell) { offer(cell, 0, rules); });
     go_on(rules);
   }
 
@@ -95,66 +101,75 @@ class Collapsing {
   std::uint8_t& state(Cell cell) { return states_[cell]; }
   std::uint8_t state(Cell cell) const { return states_[cell]; }
 
-  template <class Visit>
-  void for_each_name(const Visit& visit) const {
-    for (std::uint32_t cube = 0; cube < complex_.cubes(); ++cube)
-      for (std::uint32_t place = 0; place < 27; ++place)
-        if (states_.may_own(cube, place)) visit(DualComplex::name(cube, place));
+  // A cell that is free, which of its cofaces is there, and the rules' mark: one number, since the queue is the largest
+  // array of a collapse.
+  using Pair = std::uint64_t;
+  static constexpr std::uint32_t kCofaces = 32;  // more than a cell has
+  static Pair pair_of(Cell cell, std::uint32_t coface, bool mark) {
+    return (cell * kCofaces + coface) * 2 + (mark ? 1 : 0);
   }
-
-  // The first that is there.
-  Cell coface_of(Cell cell) const {
-    Cell found = cell;
-    complex_.any_coface(cell, [&](Cell coface) {
-      if (has(coface)) found = coface;
-      return found == coface;
-    });
-    return found;
+  static Cell cell_of(Pair pair) { return pair / (2 * kCofaces); }
+  static bool mark_of(Pair pair) { return pair % 2 != 0; }
+  Cell coface_of(Pair pair) const {
+    return complex_.coface(cell_of(pair), static_cast<std::uint32_t>(pair / 2 % kCofaces));
   }
 
   template <class Rules>
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
-    const Cell coface = coface_of(cell);  // not fixed, else the cell would be
-    queue_.push(static_cast<std::size_t>(rules.time(cell, coface, now) / kStep), cell);
+    Cell coface = cell;  // not fixed, else the cell would be
+    std::uint32_t n = 0;
+    complex_.any_coface(cell, [&](Cell other) {
+      if (has(other))
+        coface = other;
+      else
+        ++n;
+      return coface == other;
+    });
+    const Due due = rules.due(cell, coface, now);
+    queue_.push(static_cast<std::size_t>(due.time / kStep), pair_of(cell, n, due.mark));
   }
 
   // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two
-  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.  Cofaces
-  // are found again, not kept: the queue is the largest array of a collapse.  What is free of a wave at first is when
-  // its turn comes.
+  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.  What is
+  // free of a wave at first is when its turn comes.
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
     std::vector<Cell> contested;
-    std::vector<std::pair<Cell, Cell>> rivals;  // coface first
+    std::vector<std::pair<Cell, Pair>> rivals;  // by coface
     while (queue_.pop_wave()) {
       const double now = static_cast<double>(queue_.current()) * kStep;
       contested.clear();
-      queue_.for_each_in_wave([&](Cell cell) {
-        if (!is_free(cell)) return;
-        const Cell coface = coface_of(cell);
+      queue_.for_each_in_wave([&](Pair pair) {
+        if (!is_free(cell_of(pair))) return;
+        const Cell coface = coface_of(pair);
         if ((state(coface) & kClaimed) != 0) contested.push_back(coface);
         state(coface) |= kClaimed;
       });
       for (const Cell coface : contested) state(coface) &= static_cast<std::uint8_t>(~kClaimed);
       rivals.clear();
-      queue_.for_each_in_wave([&](Cell cell) {
+      rivals.reserve(2 * contested.size());
+      queue_.for_each_in_wave([&](Pair pair) {
+        const Cell cell = cell_of(pair);
         if (!is_free(cell)) return;
         stop.did(100);
-        const Cell coface = coface_of(cell);
+        const Cell coface = coface_of(pair);
         if ((state(coface) & kClaimed) != 0)
-          remove(cell, coface, now, rules);
+          remove(cell, coface, now, mark_of(pair), rules);
         else
-          rivals.emplace_back(coface, cell);
+          rivals.emplace_back(coface, pair);
       });
       std::sort(rivals.begin(), rivals.end());
       for (auto first = rivals.begin(), last = first; first != rivals.end(); first = last) {
-        const auto rank = [&](Cell cell) { return rank_of(complex_, rules.level(cell), cell); };
-        CellRank lowest = rank(first->second);
-        for (last = first + 1; last != rivals.end() && last->first == first->first; ++last)
-          lowest = std::min(lowest, rank(last->second));
-        remove(lowest.cell, first->first, now, rules);
+        while (last != rivals.end() && last->first == first->first) ++last;
+        const auto rank = [&](Pair pair) {
+          return CellRank(complex_, rules.level(cell_of(pair)), cell_of(pair));
+        };
+        const Pair lowest = std::min_element(first, last, [&](const auto& a, const auto& b) {
+                              return rank(a.second) < rank(b.second);
+                            })->second;
+        remove(cell_of(lowest), first->first, now, mark_of(lowest), rules);
       }
       if constexpr (requires { rules.wave_ends(); }) rules.wave_ends();
       if constexpr (requires { rules.next_cut(); }) take_cuts(now, rules);
@@ -162,9 +177,9 @@ class Collapsing {
   }
 
   template <class Rules>
-  void remove(Cell cell, Cell coface, double now, Rules& rules) {
+  void remove(Cell cell, Cell coface, double now, bool mark, Rules& rules) {
     state(cell) = state(coface) = 0;
-    rules.removed(cell, coface, now);
+    rules.removed(cell, coface, now, mark);
     complex_.for_each_face(coface, [&](Cell face) {
       if (face != cell) lose_coface(face, now, rules);
     });
@@ -189,7 +204,7 @@ class Collapsing {
   const DualComplex& complex_;
   ExecutionContext* context_;
   CellBytes states_;         // at own names: these, and how many cofaces
-  BucketQueue<Cell> queue_;  // free when they came
+  BucketQueue<Pair> queue_;  // free when they came
 };
 
 }  // namespace affskel::core

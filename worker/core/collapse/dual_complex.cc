@@ -1,12 +1,30 @@
 #include "core/collapse/dual_complex.h"
 
+#include <array>
+#include <bit>
 #include <iterator>
 #include <unordered_map>
+#include <utility>
 
 #include "core/base/disjoint_sets.h"
 #include "core/lattice/lattice_edges.h"
 
 namespace affskel::core {
+namespace {
+
+// Calls visit(bit) for those of a set.
+template <class Visit>
+void for_each_bit(std::uint32_t set, const Visit& visit) {
+  for (; set != 0; set &= set - 1) visit(static_cast<std::uint32_t>(std::countr_zero(set)));
+}
+
+// Sides (a set) on the other side of a cell along an axis.
+std::uint32_t across_axis(std::uint32_t sides, std::uint32_t axis) {
+  constexpr std::array<std::uint32_t, 3> kLow{0x55, 0x33, 0x0F};
+  return (sides & kLow[axis]) << (1U << axis) | (sides >> (1U << axis) & kLow[axis]);
+}
+
+}  // namespace
 
 DualComplex::DualComplex(const Lattice& lattice)
     : neighbour_(4 * std::size_t{lattice.points}, kNone),
@@ -45,13 +63,76 @@ DualComplex::DualComplex(const Lattice& lattice)
     }
     if (all) full_[cube] = static_cast<std::uint8_t>(full_[cube] | 1U << 7);
   }
+  for (std::uint32_t cube = 0; cube < lattice.points; ++cube) {
+    if (cube % 32 == 0) groups_.push_back({0, static_cast<std::uint32_t>(own_.size())});
+    const std::uint32_t own = find_own_places(cube);
+    if (own == kUpperPlaces) continue;
+    groups_.back().others |= 1U << cube % 32;
+    own_.push_back(own);
+  }
+}
+
+std::uint32_t DualComplex::find_own_places(std::uint32_t cube) const {
+  std::uint32_t glued = 0;  // axes along which a cube before it shares what lies there
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (neighbour(cube, axis, 0) != kNone) glued |= 1U << axis;
+  std::uint32_t own = 0;
+  for (std::uint32_t place = 0; place < 27; ++place) {
+    if ((kLower[place] & glued) != 0) continue;
+    if (is_regular(cube, place) || own_name(cube, place) == name(cube, place)) own |= 1U << place;
+  }
+  return own;
+}
+
+// The cubes about a cell, by side: the axes (a set) along which one lies on the other side of the cell than the first.
+struct DualComplex::Around {
+  std::uint32_t place = 0;
+  std::array<std::uint32_t, 8> cube;
+  std::array<std::uint8_t, 8> sides;  // of those that are there, in the order in which they were found
+  std::uint32_t count = 0, there = 0;
+  std::array<std::uint32_t, 3> glued{};  // per axis: the sides (a set) of cubes that are, to the one across
+
+  std::uint32_t digit_at(std::uint32_t side, std::uint32_t axis) const {
+    const std::uint32_t here = digit(place, axis);
+    return (side >> axis & 1U) != 0 ? 2 - here : here;
+  }
+  std::uint32_t place_at(std::uint32_t side) const {
+    std::uint32_t result = place;
+    for_each_bit(side, [&](std::uint32_t axis) { result += (2 - 2 * digit(place, axis)) * kWeight[axis]; });
+    return result;
+  }
+  void add(std::uint32_t side, std::uint32_t at) {
+    cube[side] = at;
+    sides[count++] = static_cast<std::uint8_t>(side);
+    there |= 1U << side;
+  }
+};
+
+DualComplex::Around DualComplex::around(std::uint32_t cube, std::uint32_t place) const {
+  Around found;
+  found.place = place;
+  found.add(0, cube);
+  for (std::uint32_t n = 0; n < found.count; ++n) {
+    const std::uint32_t side = found.sides[n];
+    for_each_bit(kAcross[place], [&](std::uint32_t axis) {
+      const std::uint32_t next = neighbour(found.cube[side], axis, found.digit_at(side, axis));
+      if (next == kNone) return;
+      const std::uint32_t other = side ^ 1U << axis;
+      found.glued[axis] |= 1U << side;
+      if ((found.there >> other & 1U) == 0) found.add(other, next);
+    });
+  }
+  return found;
 }
 
 DualComplex::Cell DualComplex::own_name(std::uint32_t cube, std::uint32_t place) const {
   if (dimension(place) == 2) return name(cube, place);  // of the complex's boundary
-  Cell own = name(cube, place);
-  for (const Star::Member& member : star(cube, place)) own = std::min(own, name(member.cube, member.place));
-  return own;
+  const Around found = around(cube, place);
+  std::uint32_t lowest = 0;
+  for_each_bit(found.there, [&](std::uint32_t side) {
+    if (found.cube[side] < found.cube[lowest]) lowest = side;
+  });
+  return name(found.cube[lowest], found.place_at(lowest));
 }
 
 std::optional<DualComplex::Cell> DualComplex::next_vertex(Cell vertex, std::size_t axis, bool upwards) const {
@@ -78,38 +159,37 @@ double DualComplex::off_centre(Cell of) const {
 }
 
 DualComplex::Star DualComplex::star(std::uint32_t cube, std::uint32_t place) const {
-  // The cubes about the cell, by the axes (a set) along which they lie on the other side of it than `cube`.
-  Star found;
-  std::array<bool, 8> known{};
-  std::array<std::uint32_t, 8> sides{};
-  known[0] = true;
-  found.members[found.count++] = {cube, place};
-  for (std::size_t n = 0; n < found.count; ++n) {
-    const auto [at, there] = found.members[n];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t d = digit(there, axis);
-      const std::uint32_t side = sides[n] ^ 1U << axis;
-      if (d == 1 || known[side]) continue;
-      const std::uint32_t next = neighbour(at, axis, d);
-      if (next == kNone) continue;
-      known[side] = true;
-      sides[found.count] = side;
-      found.members[found.count++] = {next, d == 0 ? there + 2 * kWeight[axis] : there - 2 * kWeight[axis]};
-    }
+  const Around found = around(cube, place);
+  Star result;
+  for (; result.count < found.count; ++result.count) {
+    const std::uint32_t side = found.sides[result.count];
+    result.members[result.count] = {found.cube[side], found.place_at(side)};
   }
-  return found;
+  return result;
 }
 
-DualComplex::Cofaces DualComplex::cofaces(const Star& star) const {
+// Along an axis there is one for all cubes on a side that hang together about it.
+DualComplex::Cofaces DualComplex::cofaces(std::uint32_t cube, std::uint32_t place) const {
+  const Around about = around(cube, place);
   Cofaces found;
-  for (const auto& [cube, place] : star) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t d = digit(place, axis);
-      if (d == 1) continue;
-      const Cell coface = cell(cube, d == 0 ? place + kWeight[axis] : place - kWeight[axis]);
-      if (std::find(found.begin(), found.end(), coface) == found.end()) found.cells[found.count++] = coface;
+  for_each_bit(kAcross[place], [&](std::uint32_t axis) {
+    for (std::uint32_t left = about.there; left != 0;) {
+      const auto first = static_cast<std::uint32_t>(std::countr_zero(left));
+      std::uint32_t together = 1U << first, before = 0, lowest = first;
+      while (together != std::exchange(before, together))
+        for_each_bit(kAcross[place] & ~(1U << axis), [&](std::uint32_t other) {
+          together |= across_axis(before & about.glued[other], other);
+        });
+      for_each_bit(together, [&](std::uint32_t side) {
+        if (about.cube[side] < about.cube[lowest]) lowest = side;
+      });
+      const std::uint32_t there = about.place_at(lowest);
+      found.cells[found.count++] =
+          name(about.cube[lowest],
+               about.digit_at(lowest, axis) == 0 ? there + kWeight[axis] : there - kWeight[axis]);
+      left &= ~together;
     }
-  }
+  });
   return found;
 }
 

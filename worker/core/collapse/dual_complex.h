@@ -38,8 +38,15 @@ class DualComplex {
   static constexpr std::uint32_t kCube = 13;         ///< the place of the cube itself
   static constexpr std::uint32_t kUpperVertex = 26;  ///< of the vertex at the upper end of all axes
   static constexpr std::array<std::uint32_t, 3> kWeight{9, 3, 1};
+  /// The places (a set) that lie at the lower end of no axis.
+  static constexpr std::uint32_t kUpperPlaces = [] {
+    std::uint32_t places = 0;
+    for (std::uint32_t place = kCube; place < 27; ++place)
+      if (place / 9 > 0 && place / 3 % 3 > 0 && place % 3 > 0) places |= 1U << place;
+    return places;
+  }();
 
-  /// O(points + runs); 18 bytes a point.
+  /// O(points + runs); 20 bytes a point.
   explicit DualComplex(const Lattice& lattice);
 
   std::uint32_t cubes() const { return static_cast<std::uint32_t>(full_.size()); }
@@ -60,13 +67,26 @@ class DualComplex {
 
   /// The own name of the cell at a place of a cube.
   Cell cell(std::uint32_t cube, std::uint32_t place) const {
-    std::uint32_t lowest = cube;
+    if (is_own(cube, place)) return name(cube, place);
+    std::uint32_t lowest = cube, raised = place;
     for (std::uint32_t left = kLower[place]; left != 0; left &= left - 1) {
-      lowest = neighbour(lowest, static_cast<std::size_t>(std::countr_zero(left)), 0);
-      if (lowest == kNone) return own_name(cube, place);
+      const auto axis = static_cast<std::size_t>(std::countr_zero(left));
+      const std::uint32_t next = neighbour(lowest, axis, 0);
+      if (next == kNone) continue;
+      lowest = next;
+      raised += 2 * kWeight[axis];
     }
-    return is_full(lowest, kAcross[place]) ? name(lowest, kRaised[place]) : own_name(cube, place);
+    return is_own(lowest, raised) ? name(lowest, raised) : own_name(cube, place);
   }
+
+  /// The places (a set) of a cube that name a cell by its own name.
+  std::uint32_t own_places(std::uint32_t cube) const {
+    const Group& group = groups_[cube / 32];
+    const std::uint32_t bit = 1U << cube % 32;
+    if ((group.others & bit) == 0) return kUpperPlaces;
+    return own_[group.before + static_cast<std::uint32_t>(std::popcount(group.others & (bit - 1)))];
+  }
+  bool is_own(std::uint32_t cube, std::uint32_t place) const { return (own_places(cube) >> place & 1U) != 0; }
 
   /// The cube across a lattice edge from `point` upwards, where one is glued there; else the cell of its end.
   Cell square(std::uint32_t point, std::size_t axis) const { return cell(point, kCube + kWeight[axis]); }
@@ -109,7 +129,7 @@ class DualComplex {
   };
   Star star(Cell of) const {
     const std::uint32_t cube = cube_of(of), place = place_of(of);
-    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) return star(cube, place);
+    if (!is_regular(cube, place)) return star(cube, place);
     Star found;
     found.members[found.count++] = {cube, place};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -124,21 +144,65 @@ class DualComplex {
     return found;
   }
 
+  /// Those cubes alone, in the same order.
+  struct Cubes {
+    std::array<std::uint32_t, 8> cubes;
+    std::size_t count = 0;
+
+    const std::uint32_t* begin() const { return cubes.data(); }
+    const std::uint32_t* end() const { return cubes.data() + count; }
+  };
+  Cubes cubes_about(Cell of) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    Cubes found;
+    if (!is_regular(cube, place)) {
+      for (const Star::Member& member : star(cube, place)) found.cubes[found.count++] = member.cube;
+      return found;
+    }
+    found.cubes[found.count++] = cube;
+    for (std::uint32_t left = kAcross[place]; left != 0; left &= left - 1) {
+      const auto axis = static_cast<std::size_t>(std::countr_zero(left));
+      if (neighbour(cube, axis, 2) == kNone) continue;  // a square of the boundary
+      for (std::size_t n = 0, known = found.count; n < known; ++n)
+        found.cubes[found.count++] = neighbour(found.cubes[n], axis, 2);
+    }
+    return found;
+  }
+
+  std::uint32_t coface_count(Cell of) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    if (!is_regular(cube, place)) return static_cast<std::uint32_t>(cofaces(cube, place).count);
+    const std::uint32_t axes = 3U - kDimension[place];
+    const bool on_boundary =
+        axes == 1 && neighbour(cube, static_cast<std::size_t>(std::countr_zero(across(place))), 2) == kNone;
+    return on_boundary ? 1 : 2 * axes;
+  }
+
   /// Calls visit(coface) for the cells of one dimension more about a cell, until one returns true: whether one has.
   template <class Visit>
   bool any_coface(Cell of, const Visit& visit) const {
     const std::uint32_t cube = cube_of(of), place = place_of(of);
-    if (kLower[place] != 0 || !is_full(cube, kAcross[place])) {
-      const Cofaces about = cofaces(star(cube, place));
+    if (!is_regular(cube, place)) {
+      const Cofaces about = cofaces(cube, place);
       return std::any_of(about.begin(), about.end(), visit);
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (digit(place, axis) == 1) continue;
+    for (std::uint32_t left = kAcross[place]; left != 0; left &= left - 1) {
+      const auto axis = static_cast<std::size_t>(std::countr_zero(left));
       if (visit(name(cube, place - kWeight[axis]))) return true;
       const std::uint32_t next = neighbour(cube, axis, 2);
       if (next != kNone && visit(name(next, place - kWeight[axis]))) return true;
     }
     return false;
+  }
+
+  /// The n-th, in the order in which any_coface() visits them.
+  Cell coface(Cell of, std::uint32_t n) const {
+    const std::uint32_t cube = cube_of(of), place = place_of(of);
+    if (!is_regular(cube, place)) return cofaces(cube, place).cells[n];
+    std::uint32_t left = kAcross[place];
+    for (; n >= 2; n -= 2) left &= left - 1;
+    const auto axis = static_cast<std::size_t>(std::countr_zero(left));
+    return name(n == 0 ? cube : neighbour(cube, axis, 2), place - kWeight[axis]);
   }
 
   /// All of them.
@@ -161,12 +225,9 @@ class DualComplex {
   /// Calls visit(cell) for every cell once, by its own name.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
-    for (std::uint32_t cube = 0; cube < cubes(); ++cube) {
-      for (std::uint32_t place = 0; place < 27; ++place) {
-        const Cell own = cell(cube, place);
-        if (own == name(cube, place)) visit(own);
-      }
-    }
+    for (std::uint32_t cube = 0; cube < cubes(); ++cube)
+      for (std::uint32_t left = own_places(cube); left != 0; left &= left - 1)
+        visit(name(cube, static_cast<std::uint32_t>(std::countr_zero(left))));
   }
 
   /// Calls visit(neighbour, steps) for the cubes that share a cell with one all of whose cubes are there:
@@ -216,16 +277,21 @@ class DualComplex {
       per_place([](std::size_t axis, auto digit) { return digit != 1 ? 1U << axis : 0U; });
   static constexpr auto kLower =
       per_place([](std::size_t axis, auto digit) { return digit == 0 ? 1U << axis : 0U; });
-  // The same place at the upper ends, and where, beyond the lower ends alone, the lowest cube about it lies.
-  static constexpr auto kRaised =
-      per_place([](std::size_t axis, auto digit) { return kWeight[axis] * (digit == 1 ? 1U : 2U); });
+  // Where, beyond the lower ends alone, the lowest cube about a place lies.
   static constexpr auto kLowest =
       per_place([](std::size_t axis, auto digit) { return kWeight[axis] * (digit == 0 ? 0U : 1U); });
 
+  std::uint32_t find_own_places(std::uint32_t cube) const;
   Cell own_name(std::uint32_t cube, std::uint32_t place) const;
   bool is_full(std::uint32_t lowest, std::uint32_t axes) const { return (full_[lowest] >> axes & 1U) != 0; }
+  // Named from the lowest of the cubes about it, all of which are there and glued to each other.
+  bool is_regular(std::uint32_t cube, std::uint32_t place) const {
+    return kLower[place] == 0 && is_full(cube, kAcross[place]);
+  }
+  struct Around;
+  Around around(std::uint32_t cube, std::uint32_t place) const;
   Star star(std::uint32_t cube, std::uint32_t place) const;
-  Cofaces cofaces(const Star& star) const;
+  Cofaces cofaces(std::uint32_t cube, std::uint32_t place) const;
 
   // Cubes one after another along axis 2.
   struct Run {
@@ -241,6 +307,12 @@ class DualComplex {
   // Per cube, bit `axes` (a set of them): the cubes up to one step up along these axes are all there and glued
   // to each other; set for one axis and none.
   std::vector<std::uint8_t> full_;
+  // Of 32 cubes: those that own other places than the upper ones, as few do, and how many do before them.
+  struct Group {
+    std::uint32_t others = 0, before = 0;
+  };
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> own_;  // of those: see own_places()
 };
 
 /// The greatest distance to the surface among the cubes about a cell.
@@ -248,7 +320,7 @@ class DualComplex {
 inline double radius_about(const DualComplex& complex, std::span<const float> radius,
                            DualComplex::Cell cell) {
   float most = 0;
-  for (const auto& member : complex.star(cell)) most = std::max(most, radius[member.cube]);
+  for (const std::uint32_t cube : complex.cubes_about(cell)) most = std::max(most, radius[cube]);
   return static_cast<double>(most);
 }
 
@@ -278,19 +350,25 @@ double value_at(const DualComplex& complex, DualComplex::Cell cell, const Value&
   return sum / static_cast<double>(star.count);
 }
 
-/// An order of cells that mirror images share: by a level, and of those that have one up to rounding, as the two faces
+/// A cell in an order that mirror images share: by a level, and of those that have one up to rounding, as the two faces
 /// of what is one cube thick, the farthest from the middle of the complex first.
-struct CellRank {
-  double level = 0;
-  double nearness = 0;
-  DualComplex::Cell cell = 0;
-  auto operator<=>(const CellRank&) const = default;
-};
+class CellRank {
+ public:
+  /// @param level below 2^14.
+  CellRank(const DualComplex& complex, double level, DualComplex::Cell cell)
+      : complex_(&complex), level_(std::nearbyint(level * 0x1p38)), cell_(cell) {}
 
-/// @param level below 2^14.
-inline CellRank rank_of(const DualComplex& complex, double level, DualComplex::Cell cell) {
-  return {std::nearbyint(level * 0x1p38), -complex.off_centre(cell), cell};
-}
+  bool operator<(const CellRank& other) const {
+    if (level_ != other.level_) return level_ < other.level_;
+    const double off = complex_->off_centre(cell_), other_off = complex_->off_centre(other.cell_);
+    return off != other_off ? off > other_off : cell_ < other.cell_;
+  }
+
+ private:
+  const DualComplex* complex_;
+  double level_;
+  DualComplex::Cell cell_;
+};
 
 /// The Betti numbers of the whole complex: cavities are the closed pieces of its boundary beyond one for each
 /// component (Alexander duality), holes follow from the Euler characteristic.

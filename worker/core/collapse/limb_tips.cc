@@ -59,10 +59,13 @@ class Thinning {
     return result;
   }
 
-  double time(Cell cell, Cell coface, double now) {
+  // Marks where the front has passed already.
+  Collapsing::Due due(Cell cell, Cell coface, double now) {
+    if (DualComplex::dimension(coface) == 3)
+      return {std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]))};
     if (DualComplex::dimension(coface) == 2) fronts_.stands_at(cell);
-    if (DualComplex::dimension(coface) < 3) return now + (fronts_.is_passed(cell, coface) ? 0 : 1);
-    return std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]));
+    const bool passed = fronts_.is_passed(cell, coface);
+    return {now + (passed ? 0 : 1), passed};
   }
 
   // Depths before heights: a line that heights led would run to where E is great, not along its limb.
@@ -86,34 +89,20 @@ class Thinning {
   }
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
-  void removed(Cell vertex, Cell edge, double now) {
-    if (DualComplex::dimension(edge) == 2) bare_ends(vertex, fronts_.cross(vertex, edge));
+  void removed(Cell vertex, Cell edge, double now, bool passed) {
+    if (DualComplex::dimension(edge) == 2) bare_ends(vertex, fronts_.cross(vertex, edge, passed));
     if (DualComplex::dimension(edge) != 1) return;
     const auto birth = static_cast<double>(fronts_.reached(edge));
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
     const double before = line.length();
     const Cell end = line.go(complex_, edge, vertex, now);
-    const double step = fronts_.is_passed(vertex, edge) ? 0 : line.length() - before;
+    const double length = line.length(), step = passed ? 0 : length - before;
     const double eaten = std::max(static_cast<double>(bared_at_[vertex]), birth) + step;
-    bared_at_[end] = std::max(bared_at_[end], static_cast<float>(eaten));
-    const double fall = kSteep * line.length();
-    if (!line.begun && radius_at(end) - fall > line.rise) {
-      line.tip.vertex = end;
-      line.rise = radius_at(end) - fall;
-      line.tip_place = line.others = {};
-      line.lines = 0;
-    }
-    if (!line.begun && birth - fall > line.lead) {
-      line.tip.root = end;
-      line.root_place = {};
-      line.tip.radius = radius_at(end);
-      line.tip.width = birth;
-      line.tip.reach = line.tip.length = 0;
-      line.tip_at = line.length();
-      line.lead = birth - fall;
-    } else {
-      const double way = std::min(line.length() - line.tip_at, eaten - birth);
+    float& bared_at_end = bared_at_[end];
+    bared_at_end = std::max(bared_at_end, static_cast<float>(eaten));
+    if (line.begun || !begins_at(end, birth, length, line)) {
+      const double way = std::min(length - line.tip_at, eaten - birth);
       line.tip.length = std::max(line.tip.length, way);
       line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
       line.begun = line.begun || way >= std::max(kBegun * (birth - 1), kMinLength);
@@ -137,23 +126,22 @@ class Thinning {
     double lead = 0;    // where the limb begins: by how much births are
     double tip_at = 0;  // length before that
     double whole = 0;   // of the chords
-    std::array<int, 3> chord{};
+    Cell edge = 0;      // along which it came to its end
+    float time = 0;     // when
+    bool upwards = false, begun = false;
+    std::array<std::int8_t, 3> chord{};
     // From where it has come to: its root, its tip, and the sum of the tips of other lines of the same end.
     std::array<int, 3> root_place{}, tip_place{}, others{};
-    int lines = 0;  // these
-    bool begun = false;
+    int lines = 0;            // these
     std::uint32_t order = 0;  // of those that begin
-    double time = 0;          // when it came to its end, from where, and along which edge
-    Cell from = 0, edge = 0;
 
     double length() const {
       return whole + std::sqrt(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
     }
     // Goes along an edge from one of its ends. @return the other one.
-    Cell go(const DualComplex& complex, Cell along, Cell vertex, double now) {
+    Cell go(const DualComplex& complex, Cell along, Cell from, double now) {
       edge = along;
-      from = vertex;
-      time = now;
+      time = static_cast<float>(now);
       if (length() - whole >= kChord) {
         whole = length();
         chord = {};
@@ -161,15 +149,35 @@ class Thinning {
       std::size_t axis = 0;
       while (DualComplex::digit(DualComplex::place_of(edge), axis) != 1) ++axis;
       const auto [lower, upper] = complex.ends(edge);
-      const bool upwards = lower == from;
+      upwards = lower == from;
       const int step = upwards ? 1 : -1;
-      chord[axis] += step;
+      chord[axis] = static_cast<std::int8_t>(chord[axis] + step);
       root_place[axis] -= step;
       tip_place[axis] -= step;
       others[axis] -= lines * step;
       return upwards ? upper : lower;
     }
   };
+
+  // Whether the limb of a line begins where that has come to.
+  bool begins_at(Cell end, double birth, double length, Line& line) const {
+    const double fall = kSteep * length, radius = radius_at(end);
+    if (radius - fall > line.rise) {
+      line.tip.vertex = end;
+      line.rise = radius - fall;
+      line.tip_place = line.others = {};
+      line.lines = 0;
+    }
+    if (birth - fall <= line.lead) return false;
+    line.tip.root = end;
+    line.root_place = {};
+    line.tip.radius = radius;
+    line.tip.width = birth;
+    line.tip.reach = line.tip.length = 0;
+    line.tip_at = length;
+    line.lead = birth - fall;
+    return true;
+  }
 
   // The line whose end a vertex is, which begins there if there is none.
   std::uint32_t line_ending_at(Cell vertex, double birth) {
@@ -271,9 +279,10 @@ class Thinning {
   }
   bool is_later(const Line& line, const Line& than) const {
     const auto rank = [&](const Line& of) {
-      return rank_of(complex_, level(of.from) + level(of.edge), of.from);
+      const Cell from = complex_.ends(of.edge)[of.upwards ? 0 : 1];
+      return CellRank(complex_, level(from) + level(of.edge), from);
     };
-    return line.time > than.time || rank(line) > rank(than);
+    return line.time > than.time || rank(than) < rank(line);
   }
 
   double radius_at(Cell vertex) const { return radius_about(complex_, depth_, vertex); }

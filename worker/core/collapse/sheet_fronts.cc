@@ -54,7 +54,7 @@ Vec3 SheetFronts::slope_at(std::uint32_t cube) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::uint32_t lower = complex_.neighbour(cube, axis, 0), upper = complex_.neighbour(cube, axis, 2);
     const float rise = depth_[upper == kNone ? cube : upper] - depth_[lower == kNone ? cube : lower];
-    slope[axis] = static_cast<double>(rise) / std::max(1, (lower != kNone) + (upper != kNone));
+    slope[axis] = static_cast<double>(lower != kNone && upper != kNone ? 0.5F * rise : rise);
   }
   return slope;
 }
@@ -64,8 +64,7 @@ void SheetFronts::end_wave() {
   standing_.clear();
 }
 
-float SheetFronts::cross(Cell edge, Cell square) {
-  const bool passed = is_passed(edge, square);
+float SheetFronts::cross(Cell edge, Cell square, bool passed) {
   if (passed && reached_[edge] <= kStands) return 0;
   const float when = passed ? reached(edge) : static_cast<float>(crossed(edge, square));
   complex_.for_each_face(square,
@@ -119,10 +118,10 @@ Vec3 SheetFronts::sheet_normal(Cell square, std::size_t across) const {
 // a spacing long, along one axis, would take it longer than the front took: lines of round limbs were born late then,
 // at 1.4 to 1.8 times their radius.
 bool SheetFronts::is_passed(Cell cell, Cell coface) const {
-  const auto star = complex_.star(coface);
+  const auto about = complex_.cubes_about(coface);
   Vec3 slope;
-  for (const auto& [cube, place] : star) slope = slope + slope_at(cube);
-  slope = (1 / static_cast<double>(star.count)) * slope;
+  for (const std::uint32_t cube : about) slope = slope + slope_at(cube);
+  slope = (1 / static_cast<double>(about.count)) * slope;
   if (norm(slope) <= kOffAxis) return false;
   if (DualComplex::dimension(coface) == 1) return true;
   const std::uint32_t cube = DualComplex::cube_of(coface), place = DualComplex::place_of(coface);

@@ -28,9 +28,9 @@ class SheetFronts {
   /// What one wave of a collapse removes has no order.
   void end_wave();
 
-  /// A square goes, with an edge of its that the front stands at.
+  /// A square goes, with an edge of its that the front stands at, and has passed or not.
   /// @return when the front has crossed it, spacings; 0 where it was no sheet's.
-  float cross(Cell edge, Cell square);
+  float cross(Cell edge, Cell square, bool passed);
 
   /// When what has gone of an edge's squares and cubes had, spacings.
   float reached(Cell edge);

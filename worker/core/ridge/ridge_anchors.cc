@@ -221,10 +221,11 @@ class Choice {
   Cell deepest_vertex(Cell square) const {
     const auto rank = [&](Cell vertex) {
       const auto radius = [&](std::uint32_t cube) { return static_cast<double>(evidence_.radius[cube]); };
-      return rank_of(complex_, value_at<Continued::kFromAllCubes>(complex_, vertex, radius), vertex);
+      return CellRank(complex_, value_at<Continued::kFromAllCubes>(complex_, vertex, radius), vertex);
     };
     const auto corners = vertices_round(complex_, square);
-    return *std::ranges::max_element(corners, {}, rank);
+    return *std::max_element(corners.begin(), corners.end(),
+                             [&](Cell a, Cell b) { return rank(a) < rank(b); });
   }
 
   // Unless what is anchored comes near.

@@ -40,8 +40,12 @@ TEST(DualComplex, NamesCellsAlikeFromAllTheirCubes) {
         cubes.insert(cube);
       }
       EXPECT_EQ(cubes.size(), complex.star(cell).count);
+      const auto about = complex.cubes_about(cell);
+      EXPECT_EQ(std::set<std::uint32_t>(about.begin(), about.end()), cubes);
       const auto cofaces = complex.cofaces(cell);
       EXPECT_EQ(std::set<Cell>(cofaces.begin(), cofaces.end()).size(), cofaces.count);
+      EXPECT_EQ(complex.coface_count(cell), cofaces.count);
+      for (std::uint32_t n = 0; n < cofaces.count; ++n) EXPECT_EQ(complex.coface(cell, n), cofaces.cells[n]);
       for (const Cell coface : cofaces) {
         int met = 0;
         complex.for_each_face(coface, [&](Cell face) { met += face == cell; });
@@ -52,6 +56,22 @@ TEST(DualComplex, NamesCellsAlikeFromAllTheirCubes) {
         EXPECT_NE(std::find(back.begin(), back.end(), cell), back.end());
       });
     });
+  }
+}
+
+TEST(DualComplex, OwnsEachCellOnce) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const LatticeSolid solid(random_solid(seed), 0.15);
+    const DualComplex complex(solid.lattice);
+    for (std::uint32_t cube = 0; cube < complex.cubes(); ++cube) {
+      for (std::uint32_t place = 0; place < 27; ++place) {
+        std::uint32_t lowest = cube;
+        for (const auto& member : complex.star(DualComplex::name(cube, place)))
+          lowest = std::min(lowest, member.cube);
+        EXPECT_EQ(DualComplex::cube_of(complex.cell(cube, place)), lowest);
+        EXPECT_EQ(complex.is_own(cube, place), lowest == cube);
+      }
+    }
   }
 }
 

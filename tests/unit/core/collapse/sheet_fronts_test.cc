@@ -25,15 +25,17 @@ struct Times {
   SheetFronts fronts{complex, depth};
   double last = 0, steps = 0;
 
-  double time(Cell cell, Cell coface, double now) {
+  Collapsing::Due due(Cell cell, Cell coface, double now) {
     if (DualComplex::dimension(coface) == 2) fronts.stands_at(cell);
-    if (DualComplex::dimension(coface) < 3) return now + (fronts.is_passed(cell, coface) ? 0 : 1);
-    return std::max(now, static_cast<double>(depth[DualComplex::cube_of(coface)]));
+    const bool passed = DualComplex::dimension(coface) < 3 && fronts.is_passed(cell, coface);
+    const auto depth_there = static_cast<double>(depth[DualComplex::cube_of(coface)]);
+    return {DualComplex::dimension(coface) == 3 ? std::max(now, depth_there) : now + (passed ? 0 : 1),
+            passed};
   }
   double level(Cell cell) const { return radius_about(complex, depth, cell); }
-  void removed(Cell cell, Cell coface, double now) {
+  void removed(Cell cell, Cell coface, double now, bool passed) {
     if (DualComplex::dimension(coface) != 2) return;
-    last = std::max(last, static_cast<double>(fronts.cross(cell, coface)));
+    last = std::max(last, static_cast<double>(fronts.cross(cell, coface, passed)));
     steps = std::max(steps, now);
   }
   void bared(Cell, double) {}
