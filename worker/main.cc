@@ -133,6 +133,12 @@ void add_work(CLI::App& app, Flags& flags) {
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();
   app.add_option(
+         "--derive-threads", flags.loop.derive_threads,
+         "threads of a skeleton, surface or other artefact, while other workers of the machine mostly "
+         "wait for it; 0 = as many as --threads")
+      ->check(CLI::Range(0U, 1024U))
+      ->capture_default_str();
+  app.add_option(
          "--memory", flags.loop.memory,
          "bytes that the worker may take, with K, M or G for powers of 1024: tasks that need more go to "
          "others; default: what is available of machine, control group and ulimit when it starts")

@@ -105,6 +105,8 @@ bool is_distrusted(Server& server, pid_t pid) {
   }
 }
 
+constexpr unsigned kMostThreads = 1024;  // that a worker takes
+
 SupervisorOptions supervisor_options(const Options& options, Server& server) {
   SupervisorOptions result;
   result.workers = options.workers;
@@ -117,6 +119,8 @@ SupervisorOptions supervisor_options(const Options& options, Server& server) {
                     nearest(server).target(),
                     "--threads",
                     std::to_string(threads),
+                    "--derive-threads",
+                    std::to_string(std::min(threads * options.workers, kMostThreads)),
                     "--log-level",
                     options.log_level};
   return result;

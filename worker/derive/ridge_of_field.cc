@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/quality/skeleton_advice.h"
 #include "derive/messages.h"
 
@@ -34,17 +36,23 @@ RidgeOfField::RidgeOfField(const FinishedField& field) : field_(field) {
                               field.context());
 }
 
-const core::RidgeSheet& RidgeOfField::sheet(double threshold) const {
-  core::RidgeSheetOptions options;
-  options.context = field_.context();
-  options.bounds = ridge_bounds(threshold);
+void RidgeOfField::find(std::initializer_list<double> thresholds) const {
   auto& sheets = field_.known().sheets;
-  const auto known = sheets.find(options.bounds.low);
-  if (known != sheets.end()) return known->second;
-  return sheets
-      .emplace(options.bounds.low,
-               core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis(), options))
-      .first->second;
+  std::vector<core::RidgeBounds> unknown;
+  for (const double threshold : thresholds)
+    if (const core::RidgeBounds bounds = ridge_bounds(threshold); !sheets.contains(bounds.low))
+      unknown.push_back(bounds);
+  std::vector<core::RidgeSheet> found(unknown.size());
+  core::parallel_for(field_.threads(), unknown.size(), [&](std::size_t n) {
+    found[n] = core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis(),
+                                 {.bounds = unknown[n], .context = field_.context()});
+  });
+  for (std::size_t n = 0; n < found.size(); ++n) sheets.emplace(unknown[n].low, std::move(found[n]));
+}
+
+const core::RidgeSheet& RidgeOfField::sheet(double threshold) const {
+  find({threshold});
+  return field_.known().sheets.at(ridge_bounds(threshold).low);
 }
 
 void RidgeOfField::report_lattice(const core::RidgeSheet& sheet, v1::SkeletonQuality& message,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <initializer_list>
+
 #include "affskel/v1/types.pb.h"
 #include "core/quality/advice.h"
 #include "core/ridge/ridge_sheet.h"
@@ -16,6 +18,9 @@ class RidgeOfField {
 
   /// @param threshold as in SkeletonParams: 0 for the default.
   const core::RidgeSheet& sheet(double threshold) const;
+
+  /// Finds sheets that will be asked for, beside each other on the threads that there are.
+  void find(std::initializer_list<double> thresholds) const;
 
   /// The vertices of a skeleton on it.
   void append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const;

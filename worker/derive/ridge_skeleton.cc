@@ -1,6 +1,7 @@
 #include "derive/ridge_skeleton.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/quality/skeleton_quality.h"
@@ -16,6 +17,17 @@ namespace {
 
 constexpr double kMaxThreshold = 800;  // the contract's, see SkeletonParams
 
+// What the report compares a sheet to, where there is any.
+std::optional<double> next_of(double threshold) {
+  const double next = core::next_threshold(ridge_bounds(threshold).low);
+  return next <= kMaxThreshold ? std::optional(next) : std::nullopt;
+}
+
+// A sheet, and that which its report compares it to.
+void find(const RidgeOfField& ridge, double threshold) {
+  if (const auto next = next_of(threshold)) ridge.find({threshold, *next});
+}
+
 core::RidgeSheet drawn_out(const RidgeOfField& ridge, double threshold) {
   core::RidgeSheet sheet = ridge.sheet(threshold);
   core::draw_out(sheet);
@@ -29,12 +41,11 @@ v1::SkeletonQuality quality_of(const FinishedField& field, const RidgeOfField& r
   core::SheetQualityOptions options;
   options.segments = sheet.segments;
   options.advice_if_empty = barriers.advice;
-  const double next = core::next_threshold(low);
   core::Mesh other;
-  if (next <= kMaxThreshold && !barriers.cut) {
-    other = mesh_of(drawn_out(ridge, next));
+  if (const auto next = next_of(threshold); next && !barriers.cut) {
+    other = mesh_of(drawn_out(ridge, *next));
     options.other = &other;
-    options.other_threshold = next;
+    options.other_threshold = *next;
   }
   field.throw_if_stopped();
   v1::SkeletonQuality message =
@@ -57,6 +68,7 @@ std::vector<std::uint32_t> parts_of(const FinishedField& field, const RidgeOfFie
 
 v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
   const RidgeOfField ridge(field);
+  find(ridge, params.threshold());
   const core::RidgeSheet sheet = drawn_out(ridge, params.threshold());
   v1::SkeletonPoints message;
   ridge.append_points(sheet, message);
@@ -67,6 +79,7 @@ v1::SkeletonPoints ridge_skeleton(const FinishedField& field, const v1::Skeleton
 v1::TriangleMesh ridge_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
   const double threshold = params.skeleton().threshold();
   const RidgeOfField ridge(field);
+  if (params.min_barrier() == 0) find(ridge, threshold);
   core::RidgeSheet sheet = drawn_out(ridge, threshold);
   const std::vector<std::uint32_t> parts = parts_of(field, ridge);
   const SheetBarriers barriers = take_barriers(field, params, sheet, sheet.segments);

@@ -321,7 +321,8 @@ class LeaseLoop {
                          TaskContext& context) {
     TaskLimit limit(context, options_.derive_limit, kDeriving);
     try {
-      return affskel::worker::derive(lease, job, stored, &limit, options_.threads, &known_);
+      const unsigned threads = options_.derive_threads != 0 ? options_.derive_threads : options_.threads;
+      return affskel::worker::derive(lease, job, stored, &limit, threads, &known_);
     } catch (const core::CoreError& error) {
       throw limit.reason(error);
     }

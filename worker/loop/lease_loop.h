@@ -13,6 +13,7 @@ namespace affskel::worker {
 struct LeaseLoopOptions {
   std::string server;                 ///< unix:PATH or HOST:PORT
   unsigned threads = 1;               ///< computing threads
+  unsigned derive_threads = 0;        ///< of a derivation; 0 = as many
   std::uint64_t memory = 0;           ///< bytes that it may take; 0 = what is available when it starts
   std::chrono::seconds idle_exit{0};  ///< leave after this long without work; 0 = never
   /// Leave when work on another job than the first max_jobs is offered; 0 = never.
@@ -20,8 +21,8 @@ struct LeaseLoopOptions {
   /// Of processor time that making a job ready may take; 0 = no bound.
   std::chrono::seconds prepare_limit{3600};
   std::chrono::seconds derive_limit{0};  ///< 0 = none; see TaskLimit
-  std::chrono::seconds patience{60};  ///< leave when the server does not answer for this long
-  wire::AccessFiles access = {};      ///< what it shows to the server
+  std::chrono::seconds patience{60};     ///< leave when the server does not answer for this long
+  wire::AccessFiles access = {};         ///< what it shows to the server
 };
 
 /// Leases tasks and works on them until told to stop, idle for too long, or left by the server.  On a
