@@ -16,7 +16,8 @@ class Setting {
  public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
-  /// Of steadiness: noises of each level; of it, of reach, looks, lattices and limbs: mesh files in the place of solids of our own.
+  /// Of steadiness and graphs: noises of each level; of these, of reach, looks, lattices and limbs: mesh files in the place
+  /// of solids of our own.
   unsigned seeds = 2;
   std::vector<std::string> meshes;
 
@@ -74,6 +75,8 @@ void miss_experiment(const Setting& setting, Report& report);
 void medial_experiment(const Setting& setting, Report& report);
 /// Not published: the curve skeleton beside mean curvature skeletons.
 void limbs_experiment(const Setting& setting, Report& report);
+/// Not published: which of its lines stay under noise.
+void graph_experiment(const Setting& setting, Report& report);
 /// 6.5.2: time against the number of triangles.
 void growth_experiment(const Setting& setting, Report& report);
 

@@ -14,7 +14,9 @@
 #include "client/files/read/read_shape.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/groups.h"
+#include "core/erosion/frame_field.h"
 #include "core/quality/similarity.h"
+#include "core/ridge/ridge_sheet.h"
 #include "core/spatial/point_index.h"
 
 namespace affskel::experiments {
@@ -171,6 +173,17 @@ std::vector<NamedMesh> solids_to_compare(const Setting& setting) {
   return solids;
 }
 
+std::vector<NamedMesh> bodies_to_compare(const Setting& setting) {
+  std::vector<NamedMesh> bodies;
+  for (const std::string& file : setting.meshes) bodies.push_back({file, client::read_shape(file).mesh()});
+  if (!bodies.empty()) return bodies;
+  for (const std::uint32_t triangles :
+       setting.quick ? std::vector<std::uint32_t>{292} : std::vector<std::uint32_t>{292, 1000, 5000})
+    bodies.push_back({format("body of %u", triangles), setting.body(triangles)});
+  if (!setting.quick) bodies.push_back({"heavy body of 500", setting.heavy_body()});
+  return bodies;
+}
+
 JobOptions comparison_options(const core::Mesh& mesh, const Setting& setting) {
   const double points = setting.quick ? 5'000 : 100'000;
   return {std::cbrt(core::make_solid(mesh).volume / points), "triangles", core::FrameKind::kAxis,
@@ -192,6 +205,22 @@ std::string alike(std::span<const core::Vec3> clean, std::span<const core::Vec3>
   const core::Similarity both = core::similarity(clean, noisy);
   return format("%.0f / %.0f %%", 100 * both.b_in_a.share_within(radius),
                 100 * both.a_in_b.share_within(radius));
+}
+
+core::CurveSkeleton curve_of(const Job& job, const core::CurveOptions& options) {
+  const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
+  const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
+  const core::RidgeSheet ridge = core::ridge_sheet(job.solid, job.lattice, field, basis);
+  return core::curve_skeleton(job.solid, job.lattice, basis, ridge, options);
+}
+
+std::vector<core::Vec3> places_of(const Job& job, const core::SheetMesh& skeleton) {
+  const core::Vec3 origin = core::SamplePlaces(job.solid, job.lattice).origin();
+  const core::Matrix3 frame = core::frame_matrix(job.lattice);
+  std::vector<core::Vec3> places;
+  for (const core::SheetVertex& vertex : skeleton.vertices)
+    places.push_back(origin + frame * vertex.position);
+  return places;
 }
 
 }  // namespace affskel::experiments

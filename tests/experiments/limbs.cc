@@ -2,12 +2,9 @@
 #include <cmath>
 
 #include "core/base/stopwatch.h"
-#include "core/curve/curve_skeleton.h"
-#include "core/erosion/frame_field.h"
 #include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/sheet_topology.h"
-#include "core/ridge/ridge_sheet.h"
 #include "core/spatial/distance_to_mesh.h"
 #include "core/spatial/point_index.h"
 #include "curvature_skeleton.h"
@@ -20,18 +17,12 @@ namespace {
 
 constexpr double kNoise = 0.003;
 
-CurveSkeleton curve_of(const Job& job) {
-  const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
+CurveSkeleton placed_curve_of(const Job& job) {
   const core::Stopwatch clock;
-  const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
-  const core::RidgeSheet ridge = core::ridge_sheet(job.solid, job.lattice, field, basis);
-  const core::CurveSkeleton found = core::curve_skeleton(job.solid, job.lattice, basis, ridge);
+  const core::CurveSkeleton found = curve_of(job);
   CurveSkeleton curve;
   curve.seconds = clock.seconds();
-  const core::Vec3 origin = core::SamplePlaces(job.solid, job.lattice).origin();
-  const core::Matrix3 frame = core::frame_matrix(job.lattice);
-  for (const core::SheetVertex& vertex : found.vertices)
-    curve.points.push_back(origin + frame * vertex.position);
+  curve.points = places_of(job, found);
   curve.segments = found.segments;
   curve.betti = core::sheet_betti_numbers(core::mesh_of(found), found.segments);
   return curve;
@@ -107,8 +98,8 @@ void study(const NamedMesh& solid, const Setting& setting, Table& table, Report&
                           format("%.2f", figures.mean_middle), format("%.2f", figures.least_middle),
                           alike(points(curve), points(other), radius), duration(seconds)});
   };
-  const CurveSkeleton ours = curve_of(job), theirs = curvature_skeleton(solid.mesh);
-  row("`curve`", ours, curve_of(noisy), job.seconds + ours.seconds);
+  const CurveSkeleton ours = placed_curve_of(job), theirs = curvature_skeleton(solid.mesh);
+  row("`curve`", ours, placed_curve_of(noisy), job.seconds + ours.seconds);
   row("curvature", theirs, curvature_skeleton(noisy_mesh), theirs.seconds);
   const auto more =
       static_cast<double>(ours.betti.holes) - static_cast<double>(core::betti_numbers(job.solid).holes);

@@ -36,6 +36,7 @@ constexpr Experiment kExperiments[] = {
     {"looks", looks_experiment},
     {"lattices", lattice_experiment},
     {"limbs", limbs_experiment},
+    {"graphs", graph_experiment},
     {"tessellations", tessellation_experiment},
     {"confirmations", confirmation_experiment},
     {"misses", miss_experiment},

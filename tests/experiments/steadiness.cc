@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/files/read/read_shape.h"
 #include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/interior_points.h"
 #include "core/quality/similarity.h"
 #include "experiments.h"
 #include "job.h"
+#include "limb_ends.h"
 #include "limbed_solids.h"
 #include "sheet.h"
 
@@ -17,17 +17,6 @@ namespace {
 // Lattice steps along the longest side of the body's box, and voxels of the grid whose diagonal is the
 // radius within which two skeletons count as alike.
 constexpr double kStepsPerHeight = 180, kVoxelsPerHeight = 128;
-
-std::vector<NamedMesh> bodies_of(const Setting& setting) {
-  std::vector<NamedMesh> bodies;
-  for (const std::string& file : setting.meshes) bodies.push_back({file, client::read_shape(file).mesh()});
-  if (!bodies.empty()) return bodies;
-  for (const std::uint32_t triangles :
-       setting.quick ? std::vector<std::uint32_t>{292} : std::vector<std::uint32_t>{292, 1000, 5000})
-    bodies.push_back({format("body of %u", triangles), setting.body(triangles)});
-  if (!setting.quick) bodies.push_back({"heavy body of 500", setting.heavy_body()});
-  return bodies;
-}
 
 // Shares of points within the radius: of the noisy skeleton near the clean one, of its ridges and curves alone, and back.
 struct Shares {
@@ -123,7 +112,7 @@ void steadiness_experiment(const Setting& setting, Report& report) {
   Table table{{"body", "sample points", "vertices", "pieces, tunnels", "chance", "noise",
                "mean there / ridge / back", "worst there / ridge / back"},
               {}};
-  for (const NamedMesh& body : bodies_of(setting)) study(body, setting, table, report);
+  for (const NamedMesh& body : bodies_to_compare(setting)) study(body, setting, table, report);
   report.table(table);
 }
 
