@@ -5,21 +5,72 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <utility>
 
 #include "core/chords/chord_edge.h"
-#include "core/chords/chord_squares.h"
 
 namespace affskel::core {
 namespace {
 
+// A shock is added on an edge only where at least this many of the four squares round it lie on the rim, so
+// that the rim becomes shorter.
+constexpr std::size_t kMinRimSquares = 3;
+
+// A lattice edge (axis: its own) or square (axis: its normal) of a part of the solid, by its lowest point.
+struct LatticeElement {
+  std::array<std::int64_t, 3> place{};
+  std::uint32_t axis = 0;
+  std::uint32_t part = 0;
+  friend auto operator<=>(const LatticeElement&, const LatticeElement&) = default;
+};
+
+LatticeElement moved(LatticeElement element, std::size_t axis, std::int64_t steps) {
+  element.place[axis] += steps;
+  return element;
+}
+
+LatticeElement edge_of(const ChordShock& shock, const SolidParts& parts) {
+  return {{shock.place[0], shock.place[1], shock.place[2]}, shock.axis, parts.of_point(shock.point)};
+}
+
+std::array<LatticeElement, 4> squares_round(const LatticeElement& edge) {
+  const std::uint32_t u = (edge.axis + 1) % 3, v = (edge.axis + 2) % 3;
+  const LatticeElement across_u{edge.place, u, edge.part}, across_v{edge.place, v, edge.part};
+  return {across_u, moved(across_u, v, -1), across_v, moved(across_v, u, -1)};
+}
+
+std::array<LatticeElement, 4> edges_of(const LatticeElement& square) {
+  const std::uint32_t u = (square.axis + 1) % 3, v = (square.axis + 2) % 3;
+  const LatticeElement along_u{square.place, u, square.part}, along_v{square.place, v, square.part};
+  return {along_u, moved(along_u, v, 1), along_v, moved(along_v, u, 1)};
+}
+
+// A square on the rim, and its only shock.
+using RimSquare = std::pair<LatticeElement, std::uint32_t>;
+
+// Those of a sheet made of the shocks, ascending.
+std::vector<RimSquare> rim_squares(const SolidParts& parts, std::span<const ChordShock> shocks) {
+  std::vector<RimSquare> used;
+  used.reserve(4 * shocks.size());
+  for (std::uint32_t s = 0; s < shocks.size(); ++s)
+    for (const LatticeElement& square : squares_round(edge_of(shocks[s], parts)))
+      used.emplace_back(square, s);
+  std::sort(used.begin(), used.end());
+  std::vector<RimSquare> rim;
+  for (std::size_t first = 0, last; first < used.size(); first = last) {
+    for (last = first + 1; last < used.size() && used[last].first == used[first].first;) ++last;
+    if (last - first == 1) rim.push_back(used[first]);
+  }
+  return rim;
+}
+
 // The edges without a shock of whose squares most lie on the rim; ascending.
 std::vector<LatticeElement> pinholes(const SolidParts& parts, std::span<const ChordShock> shocks) {
-  std::vector<std::uint32_t> all(shocks.size());
-  std::iota(all.begin(), all.end(), 0U);
   std::vector<LatticeElement> asked;  // once by each square on the rim
-  for (const auto& [square, s] : rim_squares(parts, shocks, all)) {
+  for (const auto& [square, s] : rim_squares(parts, shocks)) {
     const LatticeElement only = edge_of(shocks[s], parts);
     for (const LatticeElement& edge : edges_of(square)) {
       if (edge != only) asked.push_back(edge);

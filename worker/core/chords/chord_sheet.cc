@@ -98,15 +98,12 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   measure_turns(lattice, parts, field, candidates, options.context, constants);
   throw_if_stopped(options.context);
   constants.strong_turn = strong_turn(candidates, constants);
-  SignificantShocks kept = significant_shocks(lattice, parts, candidates, options.significance, constants);
   ChordSheet sheet;
-  sheet.shocks = std::move(kept.shocks);
+  static_cast<SignificantShocks&>(sheet) =
+      significant_shocks(lattice, parts, candidates, options.significance, constants);
+  sheet.strong_turn = constants.strong_turn;
   throw_if_stopped(options.context);
   close_pinholes(lattice, parts, field, sheet.shocks);
-  sheet.pieces = std::move(kept.pieces);
-  sheet.bridges = kept.bridges;
-  sheet.strong_turn = constants.strong_turn;
-  sheet.census = kept.census;
   contour(lattice, parts, options, sheet);
   return sheet;
 }

@@ -20,12 +20,8 @@ struct ChordSheetOptions {
 };
 
 /// The shock surface of the E field; has no segments.
-struct ChordSheet : SheetMesh {
-  std::vector<ChordShock> shocks;  ///< the skeleton's points, by (point, axis)
-  std::vector<double> pieces;      ///< see SignificantShocks
-  std::uint32_t bridges = 0;       ///< see SignificantShocks
-  double strong_turn = 0;          ///< the one applied, see ChordConstants::strong_share
-  ShockCensus census;              ///< see SignificantShocks
+struct ChordSheet : SheetMesh, SignificantShocks {
+  double strong_turn = 0;  ///< the one applied, see ChordConstants::strong_share
 };
 
 /// The significant shocks joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002): one

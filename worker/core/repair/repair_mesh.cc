@@ -42,15 +42,10 @@ std::string place_text(const Vec3& p) {
   return "(" + short_text(p.x) + ", " + short_text(p.y) + ", " + short_text(p.z) + ")";
 }
 
-// Of points that nothing uses, none is heeded.
-double diagonal(const Mesh& mesh) {
-  return box_diagonal(mesh);
-}
-
 class Mending {
  public:
   Mending(const Mesh& mesh, const RepairOptions& options) : options_(options) {
-    longest_ = options.longest_hole > 0 ? options.longest_hole : kLongestHole * diagonal(mesh);
+    longest_ = options.longest_hole > 0 ? options.longest_hole : kLongestHole * box_diagonal(mesh);
     orient(mesh);
     fill();
     drop_flaps();
@@ -278,18 +273,18 @@ double surface_cloud(const std::vector<Vec3>& points, ExecutionContext* context,
 }
 
 RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
-  const double finest = kFinestWrap * diagonal(mesh);
+  const double finest = kFinestWrap * box_diagonal(mesh);
   if (options.alpha > 0 && options.alpha < finest) {
     refuse("a wrap by alpha " + short_text(options.alpha) + " would be too fine; take " +
            short_text(1.01 * finest) + " or more");
   }
-  if (options.alpha > diagonal(mesh)) {
+  if (options.alpha > box_diagonal(mesh)) {
     refuse("a wrap by alpha " + short_text(options.alpha) + " would be a box round all of it; take " +
-           short_text(0.1 * diagonal(mesh)) + " or less");
+           short_text(0.1 * box_diagonal(mesh)) + " or less");
   }
   AlphaWrapOptions wrap;
   wrap.context = options.context;
-  wrap.alpha = kWrapDetail * diagonal(mesh);
+  wrap.alpha = kWrapDetail * box_diagonal(mesh);
   RepairedMesh result;
   bool is_film = false;  // what is wrapped, unless its parts have others behind them
   if (mesh.triangles.empty()) {
@@ -350,7 +345,7 @@ void tell_wrapped_volume(RepairedMesh& result) {
 // Powers of lengths must not overflow, nor vanish.
 void check_size(const Mesh& mesh) {
   if (mesh.points.empty()) refuse("the mesh has no points");
-  const double size = diagonal(mesh);
+  const double size = box_diagonal(mesh);
   if (size == 0) refuse("all points lie at one place");
   if (!(size > kSmallest && size < kLargest)) {
     refuse("the mesh is " + short_text(size) +

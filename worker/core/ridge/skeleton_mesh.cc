@@ -71,22 +71,19 @@ class Placing {
     clear_.resize(cells_.vertices.size());
     for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
       mesh_.vertices.push_back(free_vertex(cells_.vertices[v], places[v]));
-      const Vec3 point =
-          (1 / from_.lattice.spacing) * place_of(complex_.star(cells_.vertices[v]).members[0], places[v]);
-      point_place_.push_back({point.x, point.y, point.z});
+      point_place_.push_back((1 / from_.lattice.spacing) *
+                             place_of(complex_.star(cells_.vertices[v]).members[0], places[v]));
       mesh_.part.push_back(from_.parts.of_point(DualComplex::cube_of(cells_.vertices[v])));
     }
     place_surface();
     place_curves();
   }
 
-  // The vertex of the surface in the cell of a vertex, or null.
-  const SheetVertex* on_surface(std::uint32_t v) const {
+  // The vertex of the surface in the cell of a vertex that it goes through.
+  const SheetVertex& on_surface(std::uint32_t v) const {
     const auto& cells = from_.cells.vertex;
     const auto at = std::lower_bound(cells.begin(), cells.end(), cells_.vertices[v]);
-    return at == cells.end() || *at != cells_.vertices[v]
-               ? nullptr
-               : &from_.surface[static_cast<std::size_t>(at - cells.begin())];
+    return from_.surface[static_cast<std::size_t>(at - cells.begin())];
   }
 
   // Squares among the anchors are the surface's.
@@ -107,7 +104,7 @@ class Placing {
     for (std::uint32_t v = 0; v < cells_.vertices.size(); ++v) {
       if (!of_surface[v]) continue;
       const std::uint32_t point = mesh_.vertices[v].point;
-      mesh_.vertices[v] = *on_surface(v);
+      mesh_.vertices[v] = on_surface(v);
       mesh_.vertices[v].point = point;
       bound_[v] = 1;
     }
@@ -153,8 +150,7 @@ class Placing {
     for (const auto& ring : cells_.rings)
       for (const std::uint32_t v : ring)
         if (bound_[v] && rim_neighbours_[v].empty()) fixed[v] = 0;
-    std::vector<Vec3> before;
-    for (const SheetVertex& vertex : mesh_.vertices) before.push_back(vertex.position);
+    const std::vector<Vec3> before = positions(mesh_);
     const auto moved = [&](std::uint32_t v) { return place(v) - before[v]; };
     const std::vector<int> passes = rim_passes(rim_neighbours_, kRimPasses);
     even_out(fixed, kSurfacePasses, context, [&](std::uint32_t v, int pass) {

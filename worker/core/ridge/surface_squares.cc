@@ -5,9 +5,9 @@
 
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
-#include "core/base/groups.h"
 #include "core/base/none.h"
 #include "core/base/unit.h"
+#include "core/mesh/edges.h"
 
 namespace affskel::core {
 namespace {
@@ -80,26 +80,21 @@ class Selection {
   // Ways, in radii, lead over edges of two squares; at others the surface ends.
   void close_gaps(double gap) {
     std::vector<char> ends(count_, 0);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> beside;
+    std::vector<Segment> pairs;
     for_each_edge([&](std::span<const Side> sides) {
       if (sides.size() == 2)
-        beside.emplace_back(sides[0].square, sides[1].square);
+        pairs.push_back({sides[0].square, sides[1].square});
       else
         for (const Side& side : sides) ends[side.square] = 1;
     });
-    const Groups<std::uint32_t> neighbours(count_, [&](const auto& put) {
-      for (const auto& [a, b] : beside) {
-        put(a, b);
-        put(b, a);
-      }
-    });
+    const Adjacency beside = neighbours(count_, pairs);
     const auto ways_from = [&](const auto& is_source) {
       std::vector<std::uint32_t> sources(count_, kNone);
       for (std::uint32_t square = 0; square < count_; ++square)
         if (is_source(square)) sources[square] = 0;
       CheapestWays ways(std::move(sources));
       ways.find([&](std::uint32_t square, const auto& go) {
-        for (const std::uint32_t to : neighbours[square])
+        for (const std::uint32_t to : beside[square])
           go(to, 0.5 / squares_.radius[square] + 0.5 / squares_.radius[to], square);
       });
       return std::move(ways.cost);

@@ -14,10 +14,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 
 #include "base/published_threshold.h"
-#include "core/base/error.h"
 #include "core/shocks/average_outward_flux.h"
 #include "core/shocks/central_differences.h"
 #include "core/shocks/intermediate_differences.h"
@@ -43,7 +43,7 @@ struct OperatorInfo {
                                     ExecutionContext*);
 };
 
-// A new operator is a row of this table, and a file of its own.
+// A new operator is a row of this table, in the order of the names, and a file of its own.
 constexpr std::array kOperators = {
     OperatorInfo{ShockOperator::kIntermediate, "intermediate", intermediate_difference_threshold,
                  everywhere<intermediate_difference_divergence>},
@@ -58,11 +58,7 @@ constexpr std::array kOperators = {
 };
 
 const OperatorInfo& info_of(ShockOperator shock_operator) {
-  const auto found = std::find_if(kOperators.begin(), kOperators.end(), [&](const OperatorInfo& info) {
-    return info.shock_operator == shock_operator;
-  });
-  if (found == kOperators.end()) throw CoreError(CoreError::Code::kInternal, "unknown shock operator");
-  return *found;
+  return kOperators[static_cast<std::size_t>(shock_operator)];
 }
 
 }  // namespace

@@ -9,13 +9,9 @@
 namespace affskel::core {
 namespace {
 
-double square(const Vec3& v) {
-  return dot(v, v);
-}
-
 Vec3 nearest_on_side(const Vec3& place, const Vec3& a, const Vec3& b) {
   const Vec3 side = b - a;
-  const double length = square(side);
+  const double length = dot(side, side);
   const double t = length > 0 ? std::clamp(dot(place - a, side) / length, 0.0, 1.0) : 0;
   return a + t * side;
 }
@@ -38,14 +34,14 @@ std::vector<Vec3> corners_of(Mesh mesh) {
 
 Vec3 nearest_place(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 normal = cross(b - a, c - a);
-  const double size = square(normal);
+  const double size = dot(normal, normal);
   const bool above = size > 0 && dot(cross(b - a, normal), place - a) <= 0 &&
                      dot(cross(c - b, normal), place - b) <= 0 && dot(cross(a - c, normal), place - c) <= 0;
   if (above) return place - (dot(normal, place - a) / size) * normal;
   const std::array<Vec3, 3> sides = {nearest_on_side(place, a, b), nearest_on_side(place, b, c),
                                      nearest_on_side(place, c, a)};
   return *std::min_element(sides.begin(), sides.end(), [&](const Vec3& p, const Vec3& q) {
-    return square(p - place) < square(q - place);
+    return squared_distance(p, place) < squared_distance(q, place);
   });
 }
 
@@ -66,7 +62,7 @@ Vec3 DistanceToMesh::nearest_place(const Vec3& place) const {
   Vec3 found = corners_[corner.number];
   tree_.visit(Nearer{place, least}, [&](std::uint32_t t) {
     const Vec3 here = core::nearest_place(place, at(t, 0), at(t, 1), at(t, 2));
-    const double distance = square(here - place);
+    const double distance = squared_distance(here, place);
     if (distance >= least) return;
     least = distance;
     found = here;
