@@ -261,10 +261,10 @@ class GraphOfCurve {
     return at(count - 1);
   }
 
-  // Away from the end.
+  // Away from the end, from where the branch leaves the joint's thickness; of a body it begins there.
   Vec3 direction(const CurveBranch& branch, bool from_last) const {
     const std::uint32_t joint = from_last ? branch.vertices.back() : branch.vertices.front();
-    const double begin = std::min(radius_[joint], 0.5 * branch.length);
+    const double begin = is_body(joint) ? 0 : std::min(radius_[joint], 0.5 * branch.length);
     const double end = std::min(begin + kStretch * branch.mean_radius, branch.length);
     return unit(place_along(branch, from_last, end) - place_along(branch, from_last, begin));
   }

@@ -64,8 +64,10 @@ class Pruning {
       const bool leads_through_middle =
           std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return is_middle_[v] != 0; });
       if (beside_[line.back()].size() < 3 || leads_through_middle) return;
-      const auto [outside, beyond] = beyond_rest(line);
-      if (beyond >= kSpur || outside >= kSlender * std::max(thickness_of(line, outside), least_)) return;
+      const double beyond = beyond_rest(line, end).radii;
+      // Its end mostly is the farthest; an arm may come back to the hip.
+      if (std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return leads_out(line, v); }))
+        return;
       if (beyond > known)
         spurs.push({beyond, end});
       else
@@ -119,22 +121,23 @@ class Pruning {
     for (std::size_t n = 1; n < line.size(); ++n) is_left_[line[n - 1]] = is_left;
   }
 
-  // Of what leads out.
-  double thickness_of(const Line& line, double outside) const {
-    double most = 0;
+  // Whether a line does, to one of its vertices.
+  bool leads_out(const Line& line, std::uint32_t to) {
+    const auto [outside, radii] = beyond_rest(line, to);
+    double thickness = least_;
     for (const std::uint32_t v : line)
-      if (norm(place(v) - place(line.front())) < outside) most = std::max(most, ball(v));
-    return most;
+      if (norm(place(v) - place(to)) < outside) thickness = std::max(thickness, ball(v));
+    return radii >= kSpur || outside >= kSlender * thickness;
   }
 
   struct Beyond {
     double way = HUGE_VAL, radii = HUGE_VAL;
   };
 
-  // How far the end of a line is outside the balls about what it hangs on.
-  Beyond beyond_rest(const Line& line) {
+  // How far a vertex of a line is outside the balls about what that hangs on.
+  Beyond beyond_rest(const Line& line, std::uint32_t vertex) {
     constexpr double kRounding = 1 + 1e-9;
-    const Vec3 end = place(line.front());
+    const Vec3 end = place(vertex);
     Beyond least;
     const auto look_at = [&](std::uint32_t u) {
       if (!is_left_[u] || piece_[u] != piece_[line.back()]) return;

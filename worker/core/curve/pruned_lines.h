@@ -8,9 +8,9 @@
 
 namespace affskel::core {
 
-/// Leaves spurs out of lines, which end less than kSpur radii outside the ball about a place of what they hang on, and less
-/// than kSlender times as far as they are thick there: a rod on a great ball is a limb.  One that
-/// leads through the place of the greatest E of its piece is none: the solid's middle lies on it.
+/// Leaves spurs out of lines, which lead less than kSpur radii out of the ball about a place of what they hang on, and less
+/// than kSlender times as far as they are thick there: a rod on a great ball is a limb, and an arm whose hand comes back to the
+/// hip.  One that leads through the place of the greatest E of its piece is none: the solid's middle lies on it.
 /// @param sheet that the lines are of.
 /// @param ball per vertex of it.
 /// @param least_thickness what is thinner, noise makes.

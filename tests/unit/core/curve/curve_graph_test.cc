@@ -144,6 +144,20 @@ TEST(CurveGraph, ABodyThatLimbsHangOnIsAPoint) {
   }
 }
 
+// Limbs leave a body of radius 3 along +-x, and turn to y after another 2: outside of the body that is half of them.
+TEST(CurveGraph, AnAngleAtABodyIsMeasuredFromWhereTheLimbLeavesIt) {
+  Lines lines;
+  lines.radius = 3;
+  const std::uint32_t middle = lines.begin({0, 0, 0});
+  for (const double side : {-1., 1.}) lines.go(lines.go(middle, {side, 0, 0}, 5), {0, 1, 0}, 2);
+  lines.go(middle, {0, 0, 1}, 4);
+  for (const Vec3& place : lines.places)
+    lines.share.push_back(norm(place) == 0 ? 0.8 : std::abs(place.x) < 3 ? 0 : 0.02);
+  const CurveGraph graph = lines.graph();
+  ASSERT_EQ(graph.branches.size(), 4U);
+  for (const std::size_t limb : {1, 2}) EXPECT_NEAR(graph.branches[limb].angle, 90, 1e-9);
+}
+
 // From the top of a trunk a link to a fork: without a share it is no part.
 TEST(CurveGraph, ALinkWithoutAShareComesLast) {
   Lines lines;

@@ -46,6 +46,18 @@ TEST(PrunedLines, DropsASpurAndKeepsALimb) {
   }
 }
 
+// Its end lies in the trunk's ball.
+TEST(PrunedLines, KeepsALimbThatComesBack) {
+  for (const int steps : {2, 6}) {
+    Pruned lines;
+    const std::size_t trunk = lines.segments.size();
+    const std::uint32_t elbow =
+        lines.go(lines.go(lines.middle, {0, 0.5, 0}, steps, 0.3), {0.5, 0, 0}, 2, 0.3);
+    lines.go(elbow, {0, -0.5, 0}, steps - 2, 0.3);
+    EXPECT_EQ(lines.run().segments.size(), steps > 2 ? lines.segments.size() : trunk);
+  }
+}
+
 // Where the trunk is ten times as thick as the rod: by its radii the rod ends a quarter of one outside.
 TEST(PrunedLines, KeepsARodOnAThickTrunk) {
   for (const double thick : {0.1, 0.5}) {
