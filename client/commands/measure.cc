@@ -67,8 +67,10 @@ void add_measure(CommandLine& line) {
       "  affskel-client measure @last -o limbs.csv\n"
       "  affskel-client measure @last --threshold 3        # long limbs alone\n"
       "A part is a branch of the curve with what of the solid is nearest to it, the\n"
-      "largest first, about equal ones by their places: limbs end freely, links join limbs, loops close.  Lengths are in\n"
-      "the units of the mesh, angles 180 where a part goes straight on from the one it hangs on",
+      "largest first, about equal ones by their places: limbs end freely, links join limbs, loops close, a line ends\n"
+      "freely at both ends; a point is the body that others hang on, its radius that of a ball as large, or a solid\n"
+      "without limbs.  Lengths are in the units of the mesh, without what of a line runs within such a body; angles\n"
+      "180 where a part goes straight on from the one it hangs on",
       [options](Context& context) { run_measure(context, *options); });
   add_job(command, options->job);
   command

@@ -57,6 +57,7 @@ ordered_json whole_json(const Measures& m) {
           {"ends", curve.ends()},
           {"pieces", curve.components()},
           {"tunnels", curve.holes()},
+          {"voids", curve.lattice().cavities()},
           {"solid_pieces", curve.solid_components()},
           {"solid_tunnels", curve.solid_genus()},
           {"solid_voids", curve.solid_cavities()}};

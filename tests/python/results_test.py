@@ -168,6 +168,8 @@ class AgainstTheFiles(unittest.TestCase):
             self.assertAlmostEqual(whole["volume"] / file["whole"]["volume_units3"], 1, 12)
             self.assertAlmostEqual(measures.numbers["surface_area"].sum() / whole["surface_area"], 1, 12)
             self.assertEqual(whole["greatest_E"], file["whole"]["greatest_E_units3"])
+            self.assertEqual([whole[name] for name in ("pieces", "tunnels", "voids")], [1, 0, 0])
+            self.assertEqual([file["whole"][name] for name in ("pieces", "tunnels", "voids")], [1, 0, 0])
 
     def test_parts_are_those_of_the_files(self):
         measures = body.measures()

@@ -39,8 +39,8 @@ class Measures(Saveable):
         triangle_part, thickness: (m,) per triangle of it: its part, and the way along its optimal normal to the skeleton
             of "ridge".
         point_part: (R,) per sample point, in the order of `Job.field`.
-        whole: of the solid: volume, surface_area, curve_length, sheet_area (of the skeleton of "ridge"), greatest_E and
-            greatest_E_place.
+        whole: of the solid: volume, surface_area, curve_length, sheet_area (of the skeleton of "ridge"), greatest_E,
+            greatest_E_place, and the pieces, tunnels and voids that its skeleton finds.
     """
 
     kinds: Sequence[str]
@@ -99,9 +99,11 @@ def _places(parts: Sequence[types.SolidPart], name: str) -> Floats:
 
 def _whole(message: types.SolidParts, numbers: Mapping[str, Floats]) -> Dict[str, Any]:
     links = sum(link.length for link in message.links)
+    quality = message.curve.quality
     return {"volume": float(numbers["volume"].sum()), "surface_area": message.surface_area,
             "curve_length": float(numbers["length"].sum() + links), "sheet_area": message.sheet_area,
-            "greatest_E": message.greatest_erosion, "greatest_E_place": tuple(message.greatest_place)}
+            "greatest_E": message.greatest_erosion, "greatest_E_place": tuple(message.greatest_place),
+            "pieces": quality.components, "tunnels": quality.holes, "voids": quality.lattice.cavities}
 
 
 def measures_of(message: types.SolidParts) -> Measures:
