@@ -124,6 +124,7 @@ struct Flags {
   std::int64_t patience_s = 60;
   std::int64_t prepare_limit_s = 3600;
   std::int64_t derive_limit_s = 0;
+  unsigned derive_threads = 0;
 };
 
 // What it works for, and with.
@@ -133,7 +134,7 @@ void add_work(CLI::App& app, Flags& flags) {
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();
   app.add_option(
-         "--derive-threads", flags.loop.derive_threads,
+         "--derive-threads", flags.derive_threads,
          "threads of a skeleton, surface or other artefact, while other workers of the machine mostly "
          "wait for it; 0 = as many as --threads")
       ->check(CLI::Range(0U, 1024U))
@@ -274,6 +275,7 @@ int main(int argc, char** argv) {
   });
   flags.loop.idle_exit = std::chrono::seconds(flags.idle_exit_s);
   flags.loop.prepare_limit = std::chrono::seconds(flags.prepare_limit_s);
+  flags.loop.derive_threads = flags.derive_threads != 0 ? flags.derive_threads : flags.loop.threads;
   flags.loop.derive_limit = std::chrono::seconds(flags.derive_limit_s);
   flags.loop.patience = std::chrono::seconds(flags.patience_s);
   return static_cast<int>(run_worker(flags.loop));

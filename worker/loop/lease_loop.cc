@@ -321,8 +321,7 @@ class LeaseLoop {
                          TaskContext& context) {
     TaskLimit limit(context, options_.derive_limit, kDeriving);
     try {
-      const unsigned threads = options_.derive_threads != 0 ? options_.derive_threads : options_.threads;
-      return affskel::worker::derive(lease, job, stored, &limit, threads, &known_);
+      return affskel::worker::derive(lease, job, stored, &limit, options_.derive_threads, &known_);
     } catch (const core::CoreError& error) {
       throw limit.reason(error);
     }

@@ -13,7 +13,7 @@ namespace affskel::worker {
 struct LeaseLoopOptions {
   std::string server;                 ///< unix:PATH or HOST:PORT
   unsigned threads = 1;               ///< computing threads
-  unsigned derive_threads = 0;        ///< of a derivation; 0 = as many
+  unsigned derive_threads = 1;        ///< of a derivation
   std::uint64_t memory = 0;           ///< bytes that it may take; 0 = what is available when it starts
   std::chrono::seconds idle_exit{0};  ///< leave after this long without work; 0 = never
   /// Leave when work on another job than the first max_jobs is offered; 0 = never.
