@@ -63,7 +63,7 @@ class LimbTubes {
       if (is_handle_of(other, limb) || std::sqrt(other.box.squared_distance(at)) >= least) return false;
       const std::size_t n = nearest_in(other, at);
       const double depth = depth_below(other, n, at);
-      if (depth < least) {
+      if (depth < least && is_near_joint(other, n)) {
         least = depth;
         owner = own_vertex(other, n);
       }
@@ -203,6 +203,11 @@ class LimbTubes {
     return owner;
   }
 
+  // Elsewhere it comes close by chance, as a hand to a hip.
+  bool is_near_joint(const Limb& limb, std::size_t n) const {
+    return tubed_.is_shared[limb.vertices[n]] != 0;
+  }
+
   // It has no more than what the walk along lines takes to it: noise makes some within a body's hips.
   static bool is_handle_of(const Limb& loop, const Limb& limb) {
     return loop.ends[0] == loop.ends[1] && loop.size <= limb.size;
@@ -216,9 +221,10 @@ class LimbTubes {
     const Limb& limb = limbs_[tubed_.limb_of[vertex]];
     any_beside(limb, [&](const Limb& other) {
       if (is_handle_of(other, limb)) return false;
-      const std::uint32_t found = own_vertex(other, nearest_in(other, at));
+      const std::size_t n = nearest_in(other, at);
+      const std::uint32_t found = own_vertex(other, n);
       const double way = norm(at - places_[found]);
-      if (way >= least || tubed_.limb_of[found] == kNone) return false;
+      if (way >= least || tubed_.limb_of[found] == kNone || !is_near_joint(other, n)) return false;
       least = way;
       nearest = found;
       return false;

@@ -68,6 +68,20 @@ TEST(LimbTubes, AnArmBeginsAtTheTubeOfItsTrunk) {
   }
 }
 
+// At the joint of the legs, outside of the trunk's tube: nearer to the hand, but not where the arm meets the trunk.
+TEST(LimbTubes, AHandAtAHipHasNothingOfThat) {
+  Tubed lines;
+  const std::uint32_t shoulder = lines.add({0, 0, 0}, 1.1);
+  lines.go(shoulder, {0, 0, 0.1}, 30, 0.5);
+  const std::uint32_t hips = lines.go(shoulder, {0, 0, -0.1}, 50, 1);
+  for (const double side : {-0.03, 0.03}) lines.go(hips, {side, 0, -0.1}, 60, 0.8);
+  const std::uint32_t elbow = lines.go(lines.go(shoulder, {0.1, 0, 0}, 40, 0.3), {0, 0, -0.1}, 50, 0.3);
+  lines.go(elbow, {-0.1, 0, 0}, 25, 0.3);
+  const Vec3 owner = lines.owner({1.15, 0, -4.9}, hips - 1);
+  EXPECT_LT(owner.x, 0.5);
+  EXPECT_NEAR(owner.z, -5, 0.5);
+}
+
 // A chest is twice as wide as deep.
 TEST(LimbTubes, AnArmBeginsAtTheSideOfAFlatTrunk) {
   Tubed lines;
