@@ -80,8 +80,8 @@ class Collapsing {
   ///   level(cell) and CellRank, so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
   ///   removed(cell, coface, now, mark of the pair), in a wave in any order; bared(cell, now): the last coface of a
-  ///   cell that stays was removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is taken out by
-  ///   itself, or nothing.
+  ///   cell that stays was removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is
+  ///   taken out by itself, or nothing.
   template <class Rules>
   void run(Rules& rules) {
     complex_.for_each_cell([&](Cell cell) { offer(cell, 0, rules); });

@@ -168,6 +168,7 @@ class DualComplex {
     return found;
   }
 
+  /// As many as cofaces() has.
   std::uint32_t coface_count(Cell of) const {
     const std::uint32_t cube = cube_of(of), place = place_of(of);
     if (!is_regular(cube, place)) return static_cast<std::uint32_t>(cofaces(cube, place).count);

@@ -64,10 +64,10 @@ class Pruning {
       const bool leads_through_middle =
           std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return is_middle_[v] != 0; });
       if (beside_[line.back()].size() < 3 || leads_through_middle) return;
-      const double beyond = beyond_rest(line, end).radii;
       // Its end mostly is the farthest; an arm may come back to the hip.
       if (std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return leads_out(line, v); }))
         return;
+      const double beyond = beyond_rest(line, end).radii;
       if (beyond > known)
         spurs.push({beyond, end});
       else

@@ -57,6 +57,12 @@ constexpr std::array kOperators = {
                  everywhere<average_outward_flux>},
 };
 
+static_assert([] {
+  for (std::size_t n = 0; n < kOperators.size(); ++n)
+    if (kOperators[n].shock_operator != static_cast<ShockOperator>(n)) return false;
+  return true;
+}());
+
 const OperatorInfo& info_of(ShockOperator shock_operator) {
   return kOperators[static_cast<std::size_t>(shock_operator)];
 }
