@@ -92,7 +92,8 @@ std::uint64_t ridge_hash(const affskel::core::Solid& solid, const affskel::core:
   RidgeSheet drawn = ridge;
   draw_out(drawn);
   add_sheet(drawn, hash);
-  const CurveSkeleton curve = curve_skeleton(solid, lattice, basis, ridge);
+  const CurveSkeleton curve = curve_skeleton(
+      {solid, lattice, basis, ridge, limb_surface(solid, lattice, threads)}, {.threads = threads});
   add_sheet(curve, hash);
   for (const double distance : curve.distance) hash.add(distance);
   for (const double beyond : curve.beyond) hash.add(beyond);

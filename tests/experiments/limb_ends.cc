@@ -211,7 +211,8 @@ core::CurveSkeleton curve_of(const Job& job, const core::CurveOptions& options) 
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
   const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
   const core::RidgeSheet ridge = core::ridge_sheet(job.solid, job.lattice, field, basis);
-  return core::curve_skeleton(job.solid, job.lattice, basis, ridge, options);
+  const core::LimbSurface surface = core::limb_surface(job.solid, job.lattice);
+  return core::curve_skeleton({job.solid, job.lattice, basis, ridge, surface}, options);
 }
 
 std::vector<core::Vec3> places_of(const Job& job, const core::SheetMesh& skeleton) {

@@ -176,7 +176,8 @@ RC_GTEST_PROP(SkeletonProperties, TopologyIsTheSolids, ()) {
   RC_PRE(topology(basis.topology) == solid);
   const core::RidgeSheet ridge = ridge_of(eroded, basis);
   RC_ASSERT(topology(ridge) == solid);
-  const Topology curve = topology(core::curve_skeleton(eroded.solid, eroded.lattice, basis, ridge));
+  const Topology curve = topology(core::curve_skeleton(
+      {eroded.solid, eroded.lattice, basis, ridge, core::limb_surface(eroded.solid, eroded.lattice)}));
   RC_ASSERT(curve == (Topology{solid[0], solid[1], 0}));
 }
 

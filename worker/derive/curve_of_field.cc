@@ -32,13 +32,20 @@ std::string without_lines(const core::CurveSkeleton& curve, double threshold) {
 core::CurveOptions CurveOfField::options_at(double threshold) const {
   core::CurveOptions options;
   options.least_reach = threshold_of(threshold);
+  options.threads = field_.threads();
   options.context = field_.context();
   return options;
 }
 
 core::SheetMesh CurveOfField::lines_at(double threshold) const {
-  return core::curve_lines(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_,
-                           options_at(threshold));
+  return core::curve_lines(input(), options_at(threshold));
+}
+
+core::CurveInput CurveOfField::input() const {
+  const core::Solid& solid = field_.job().solid();
+  if (!surface_)
+    surface_.reset(new core::LimbSurface(core::limb_surface(solid, field_.lattice(), field_.threads())));
+  return {solid, field_.lattice(), ridge_.basis(), sheet_, *surface_};
 }
 
 const core::CurveSkeleton& CurveOfField::at(double threshold) const {
@@ -46,10 +53,7 @@ const core::CurveSkeleton& CurveOfField::at(double threshold) const {
   auto& curves = field_.known().curves;
   const auto known = curves.find(options.least_reach);
   if (known != curves.end()) return known->second;
-  return curves
-      .emplace(options.least_reach,
-               core::curve_skeleton(field_.job().solid(), field_.lattice(), ridge_.basis(), sheet_, options))
-      .first->second;
+  return curves.emplace(options.least_reach, core::curve_skeleton(input(), options)).first->second;
 }
 
 v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "affskel/v1/types.pb.h"
@@ -31,11 +32,13 @@ class CurveOfField {
  private:
   core::CurveOptions options_at(double threshold) const;
   core::SheetMesh lines_at(double threshold) const;
+  core::CurveInput input() const;
   std::vector<core::Vec3> places_of(const core::CurveSkeleton& curve) const;
 
   const FinishedField& field_;
   const RidgeOfField& ridge_;
-  const core::RidgeSheet& sheet_;  // at its default threshold
+  const core::RidgeSheet& sheet_;                             // at its default threshold
+  mutable std::unique_ptr<const core::LimbSurface> surface_;  // once asked for
 };
 
 /// Per sample point: the part of the solid that it lies in, from 1.

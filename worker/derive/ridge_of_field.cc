@@ -44,8 +44,9 @@ void RidgeOfField::find(std::initializer_list<double> thresholds) const {
       unknown.push_back(bounds);
   std::vector<core::RidgeSheet> found(unknown.size());
   core::parallel_for(field_.threads(), unknown.size(), [&](std::size_t n) {
+    const unsigned threads = unknown.size() > 1 ? 1 : field_.threads();
     found[n] = core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis(),
-                                 {.bounds = unknown[n], .context = field_.context()});
+                                 {.bounds = unknown[n], .threads = threads, .context = field_.context()});
   });
   for (std::size_t n = 0; n < found.size(); ++n) sheets.emplace(unknown[n].low, std::move(found[n]));
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/base/matrix3.h"
+#include "core/base/parallel.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
 #include "core/curve/joint_balls.h"
@@ -74,9 +75,11 @@ class CentreLines {
         places_(places),
         sections_(input.surface.sections),
         distance_(input.surface.distance),
-        membership_(input.surface.mesh),
+        membership_(input.surface.membership),
         lines_(polylines(places.size(), input.segments)),
-        neighbours_(neighbours(places.size(), input.segments)) {}
+        neighbours_(neighbours(places.size(), input.segments)),
+        thickness_(places.size()),
+        ball_(places.size()) {}
 
   void run() {
     find_balls();
@@ -121,10 +124,10 @@ class CentreLines {
   // The largest balls in the solid about the vertices.
   void find_balls() {
     home_ = places_;
-    ball_.clear();
-    thickness_.clear();
-    for (const Vec3& at : home_) ball_.push_back(distance_.nearest(at));
-    for (std::size_t v = 0; v < home_.size(); ++v) thickness_.push_back(thickness_at(home_[v], ball_[v]));
+    parallel_for(input_.threads, home_.size(), [&](std::size_t v) {
+      ball_[v] = distance_.nearest(home_[v]);
+      thickness_[v] = thickness_at(home_[v], ball_[v]);
+    });
     joints_ = joint_balls(places_, lines_, thickness_);
   }
 
@@ -206,11 +209,12 @@ class CentreLines {
   void to_middle() {
     for (const auto& line : lines_) {
       const Free free = free_part(line);
-      std::vector<Shift> shifts;
+      std::vector<Shift> shifts(std::max(free.first, free.last) - free.first);
+      parallel_for(input_.threads, shifts.size(),
+                   [&](std::size_t n) { shifts[n] = shift_of(line, free.first + n); });
       std::vector<double> along;
       std::vector<Vec3> before;
       for (std::size_t n = free.first; n < free.last; ++n) {
-        shifts.push_back(shift_of(line, n));
         along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - before.back()));
         before.push_back(places_[line[n]]);
       }
@@ -369,15 +373,15 @@ class CentreLines {
   std::vector<Vec3>& places_;
   const LimbSections& sections_;
   const DistanceToMesh& distance_;
-  const SolidMembership membership_;
+  const SolidMembership& membership_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Adjacency neighbours_;
   std::vector<Vec3> start_;                   // once smooth
   std::vector<Vec3> home_;                    // where the round has found the vertices
   std::vector<double> thickness_;             // per vertex: see LimbSections::thickness()
+  std::vector<double> ball_;                  // per vertex: how far the surface is from there
   std::vector<JointBalls> joints_;            // per vertex
   std::vector<std::vector<LimbFork>> forks_;  // per vertex
-  std::vector<double> ball_;                  // per vertex: how far the surface is from there
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ struct CentreLinesInput {
   std::span<const Vec3> tip;
   std::span<const char> has_tip;
   double spacing = 0;  ///< of the lattice: what tells ends apart
+  unsigned threads = 1;
   ExecutionContext* context = nullptr;
 };
 

@@ -9,6 +9,7 @@
 #include "core/base/cheapest_ways.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/none.h"
+#include "core/base/parallel.h"
 #include "core/base/require.h"
 #include "core/collapse/realms.h"
 #include "core/contour/edge_cells.h"
@@ -174,55 +175,56 @@ SheetLines with_joints(const SheetLines& lines, std::span<const char> ends, std:
   return joined_links(zipped, places, balls, context);
 }
 
-// In the frame's coordinates.
-Mesh surface_in_frame(const Solid& solid, const Lattice& lattice) {
-  Mesh surface = surface_in_lattice(solid, lattice);
-  for (Vec3& p : surface.points) p = lattice.spacing * p;
-  return surface;
-}
-
 // Where lines run, instead of the distance to the surface, which falls by two standard deviations of noise.
 std::vector<double> thickness_along(const LimbSections& sections, const SheetLines& lines,
-                                    std::span<const Vec3> places, std::span<const double> balls) {
+                                    std::span<const Vec3> places, std::span<const double> balls,
+                                    unsigned threads) {
   std::vector<double> thickness(balls.begin(), balls.end());
-  for (const std::uint32_t v : lines.vertices)
+  parallel_for(threads, lines.vertices.size(), [&](std::size_t n) {
+    const std::uint32_t v = lines.vertices[n];
     if (balls[v] > 0) thickness[v] = sections.thickness(places[v], balls[v]);
+  });
   return thickness;
 }
 
-void move_to_middle(const LimbSurface& surface, const Lattice& lattice, const LimbEnds& ends,
-                    std::span<const std::uint32_t> lines, CurveSkeleton& curve, ExecutionContext* context) {
+void move_to_middle(const CurveInput& in, const CurveOptions& options, const LimbEnds& ends,
+                    std::span<const std::uint32_t> lines, CurveSkeleton& curve) {
   std::vector<Vec3> places = positions(curve), tips;
   std::vector<char> has_tip;
   for (const std::uint32_t v : lines) {
     tips.push_back(ends.tip[v]);
     has_tip.push_back(ends.is_end[v]);
   }
-  centre_lines({surface, curve.segments, tips, has_tip, lattice.spacing, context}, places);
+  centre_lines(
+      {in.surface, curve.segments, tips, has_tip, in.lattice.spacing, options.threads, options.context},
+      places);
   for (std::uint32_t v = 0; v < lines.size(); ++v) curve.vertices[v].position = places[v];
 }
 
-void find_distances(const Solid& solid, const Lattice& lattice, CurveSkeleton& curve) {
-  const DistanceToMesh surface(solid.mesh);
+void find_distances(const CurveInput& in, unsigned threads, CurveSkeleton& curve) {
+  const DistanceToMesh surface(in.solid.mesh, threads);
   const auto distance = [&](const Vec3& position) {
-    return solid.scale() * surface.nearest(scaled_from_frame(lattice, position));
+    return in.solid.scale() * surface.nearest(scaled_from_frame(in.lattice, position));
   };
   for (const SheetVertex& vertex : curve.vertices) curve.distance.push_back(distance(vertex.position));
   for (Opening& opening : curve.opened) opening.distance = distance(opening.place);
 }
 
 // Of sections across lines, which have their directions by what lies in balls about the vertices.
-// @param size_of (place, unit normal, ball)
+// @param size_of (place, unit normal, ball), of several threads at once
 template <class SizeOf>
 std::vector<double> section_sizes(std::span<const Vec3> places, std::span<const double> balls,
-                                  std::span<const std::vector<std::uint32_t>> lines, const SizeOf& size_of) {
+                                  std::span<const std::vector<std::uint32_t>> lines, unsigned threads,
+                                  const SizeOf& size_of) {
+  std::vector<Vec3> across(places.size());  // of the last of its lines where a joint has several
+  for (const auto& line : lines)
+    for (std::size_t n = 0; n < line.size(); ++n)
+      if (const Vec3 way = direction_in_ball(places, line, n, balls[line[n]]); way != Vec3{})
+        across[line[n]] = way;
   std::vector<double> sizes(places.size(), 0);
-  for (const auto& line : lines) {
-    for (std::size_t n = 0; n < line.size(); ++n) {
-      const Vec3 across = direction_in_ball(places, line, n, balls[line[n]]);
-      if (across != Vec3{}) sizes[line[n]] = size_of(places[line[n]], across, balls[line[n]]);
-    }
-  }
+  parallel_for(threads, places.size(), [&](std::size_t v) {
+    if (across[v] != Vec3{}) sizes[v] = size_of(places[v], across[v], balls[v]);
+  });
   return sizes;
 }
 
@@ -241,26 +243,26 @@ std::vector<char> vertices_in_joints(std::span<const Vec3> places,
 }
 
 // In the coordinates of the mesh, so that sections are across.
-void find_radii(const Solid& solid, const Lattice& lattice, std::span<const std::vector<std::uint32_t>> lines,
-                std::span<const char> in_joint, CurveSkeleton& curve) {
+void find_radii(const CurveInput& in, std::span<const std::vector<std::uint32_t>> lines,
+                std::span<const char> in_joint, unsigned threads, CurveSkeleton& curve) {
   std::vector<Vec3> places;
   for (const SheetVertex& vertex : curve.vertices)
-    places.push_back(scaled_from_frame(lattice, vertex.position));
+    places.push_back(scaled_from_frame(in.lattice, vertex.position));
   std::vector<double> balls = curve.distance;
-  for (double& ball : balls) ball /= solid.scale();
-  const double volume = solid.scaled(solid.volume);
+  for (double& ball : balls) ball /= in.solid.scale();
+  const double volume = in.solid.scaled(in.solid.volume);
   const std::vector<double> tube = slice_radii({places, lines, curve.slice, balls, volume});
-  const LimbSections sections(solid.mesh);
+  const LimbSections sections(in.solid.mesh, threads);
   const std::vector<double> area = section_sizes(
-      places, balls, lines,
+      places, balls, lines, threads,
       [&](const Vec3& at, const Vec3& across, double ball) { return sections.area(at, across, ball); });
   curve.radius = limb_radii({lines, curve.share, curve.slice, tube, area, in_joint, volume});
-  for (double& radius : curve.radius) radius *= solid.scale();
+  for (double& radius : curve.radius) radius *= in.solid.scale();
 }
 
 // Points of lines that are gone go to the nearest vertex of what is drawn there: along it they might go the wrong way.
 void give_to_stars(const Lattice& lattice, const LimbHubs& hubs, std::span<const std::uint32_t> number,
-                   CurveSkeleton& curve, ExecutionContext* context) {
+                   const CurveOptions& options, CurveSkeleton& curve) {
   std::vector<std::vector<std::uint32_t>> own(hubs.hubs.size());
   for (std::uint32_t v = 0; v < hubs.of.size(); ++v)
     if (hubs.of[v] != kNone) own[hubs.of[v]].push_back(v);
@@ -278,7 +280,12 @@ void give_to_stars(const Lattice& lattice, const LimbHubs& hubs, std::span<const
     if (hub == kNone || hubs.hubs[hub].joint != vertex) return vertex;
     return own[hub][indices[hub].find(at).number];
   };
-  given_anew(lattice, nearest_of, curve.vertices.size(), curve.nearest, context);
+  given_anew(lattice, nearest_of, curve.vertices.size(), curve.nearest, options.threads, options.context);
+}
+
+SlicedLines sliced(const CurveInput& in, const CurveOptions& options, CurveSkeleton& curve) {
+  return sliced_lines({in.solid, in.lattice, in.surface, curve, options.threads, options.context},
+                      curve.nearest);
 }
 
 // Limbs, and the bodies that they hang on.
@@ -289,97 +296,98 @@ struct LimbsAndHubs {
 };
 
 // Draws lines anew in flat bodies.
-LimbsAndHubs with_hubs(const Solid& solid, const Lattice& lattice, const LimbSurface& surface,
-                       CurveSkeleton& curve, ExecutionContext* context) {
-  give_the_rest(lattice, curve);
-  LimbsAndHubs found{sliced_lines({solid, lattice, surface, curve, context}, curve.nearest)};
+LimbsAndHubs with_hubs(const CurveInput& in, const CurveOptions& options, CurveSkeleton& curve) {
+  give_the_rest(in.lattice, curve);
+  LimbsAndHubs found{sliced(in, options, curve)};
   const auto& [places, balls, slices, radius, lines] = found.limbs;
-  const std::vector<double> section =
-      section_sizes(places, balls, lines, [&](const Vec3& at, const Vec3& across, double ball) {
-        return surface.sections.at(at, across, ball).radius;
-      });
-  found.hubs = limb_hubs({places, lines, radius, section, lattice, curve.nearest, context});
-  const auto number = draw_hub_stars(surface, lattice.spacing, found.hubs, curve);
+  const std::vector<double> section = section_sizes(places, balls, lines, options.threads,
+                                                    [&](const Vec3& at, const Vec3& across, double ball) {
+                                                      return in.surface.sections.at(at, across, ball).radius;
+                                                    });
+  found.hubs = limb_hubs({places, lines, radius, section, in.lattice, curve.nearest, options.context});
+  const auto number = draw_hub_stars(in.surface, in.lattice.spacing, found.hubs, curve);
   found.are_drawn_anew = !number.empty();
-  if (found.are_drawn_anew) give_to_stars(lattice, found.hubs, number, curve, context);
+  if (found.are_drawn_anew) give_to_stars(in.lattice, found.hubs, number, options, curve);
   return found;
 }
 
-void measure(const Solid& solid, const Lattice& lattice, const LimbSurface& surface, LimbsAndHubs found,
-             CurveSkeleton& curve, ExecutionContext* context) {
-  if (found.are_drawn_anew)
-    found.limbs = sliced_lines({solid, lattice, surface, curve, context}, curve.nearest);
+void measure(const CurveInput& in, const CurveOptions& options, LimbsAndHubs found, CurveSkeleton& curve) {
+  if (found.are_drawn_anew) found.limbs = sliced(in, options, curve);
   const auto& [places, balls, slices, radius, lines] = found.limbs;
   curve.slice = slices;
   std::vector<char> is_hubs(places.size(), 0);
   for (std::size_t v = 0; v < places.size(); ++v) is_hubs[v] = found.hubs.of[v] != kNone;
-  const auto forks = limb_forks(places, lines, surface.sections, lattice.spacing, is_hubs);
+  const LimbSections& sections = in.surface.sections;
+  const auto forks = limb_forks(places, lines, sections, in.lattice.spacing, is_hubs);
   const auto ellipse_at = [&](const Vec3& place, const Vec3& u, const Vec3& v, double ball) {
-    return surface.sections.ellipse(place, u, v, ball);
+    return sections.ellipse(place, u, v, ball);
   };
   const auto owner_of = limb_tubes({places, lines, balls, radius, forks, std::move(found.hubs), ellipse_at});
-  curve.share = given_anew(lattice, owner_of, places.size(), curve.nearest, context);
+  curve.share =
+      given_anew(in.lattice, owner_of, places.size(), curve.nearest, options.threads, options.context);
   curve.beyond = volume_beyond(curve.segments, curve.share);
-  find_distances(solid, lattice, curve);
+  find_distances(in, options.threads, curve);
   std::vector<char> in_joint = vertices_in_joints(places, lines, forks);
   for (std::size_t v = 0; v < places.size(); ++v)
     if (is_hubs[v]) in_joint[v] = 1;
-  find_radii(solid, lattice, lines, in_joint, curve);
+  find_radii(in, lines, in_joint, options.threads, curve);
   curve.branches = static_cast<std::uint32_t>(lines.size());
   for (const std::uint32_t ends : ends_of(places.size(), lines)) curve.ends += ends == 1;
 }
 
-// The lines in their places, and which vertices of the ridge theirs are.
-struct Drawn {
-  CurveSkeleton curve;
-  std::vector<std::uint32_t> lines;
-};
-
-Drawn drawn(const LimbSurface& surface, const Lattice& lattice, const RidgeBasis& basis,
-            const RidgeSheet& ridge, const CurveOptions& options) {
-  require_within(options.least_reach, 1e-6, 1e6,
-                 "the least length of a limb must lie between 1e-6 and 1e6 radii");
-  const std::vector<double> balls = balls_of(lattice, basis, ridge);
-  LimbEnds ends = ends_of_limbs(lattice, basis, ridge, options.least_reach);
-  SheetLines lines = sheet_lines(ridge, ends.is_end, options.context);
-  if (add_flat_limbs(ridge, balls, options.least_reach, lines, ends))
-    lines = sheet_lines(ridge, ends.is_end, options.context);
-  std::vector<Vec3> places = positions(ridge);
-  const std::vector<double> thickness = thickness_along(surface.sections, lines, places, balls);
-  lines = pruned_lines(lines, ridge, thickness, kLeastThickness * lattice.spacing, options.context);
-  lines = with_joints(lines, ends.is_end, balls, lattice.spacing, places, options.context);
-  CurveSkeleton curve;
+// @return which vertices of the ridge its own are.
+std::vector<std::uint32_t> draw_in_middle(const CurveInput& in, const CurveOptions& options,
+                                          CurveSkeleton& curve) {
+  const std::vector<double> balls = balls_of(in.lattice, in.basis, in.ridge);
+  LimbEnds ends = ends_of_limbs(in.lattice, in.basis, in.ridge, options.least_reach);
+  SheetLines lines = sheet_lines(in.ridge, ends.is_end, options.context);
+  if (add_flat_limbs(in.ridge, balls, options.least_reach, lines, ends))
+    lines = sheet_lines(in.ridge, ends.is_end, options.context);
+  std::vector<Vec3> places = positions(in.ridge);
+  const std::vector<double> thickness =
+      thickness_along(in.surface.sections, lines, places, balls, options.threads);
+  lines = pruned_lines(lines, in.ridge, thickness, kLeastThickness * in.lattice.spacing, options.context);
+  lines = with_joints(lines, ends.is_end, balls, in.lattice.spacing, places, options.context);
   curve.same_to = ends.least_reach;
-  for (const std::uint32_t v : lines.opened) curve.opened.push_back({ridge.vertices[v].position});
+  for (const std::uint32_t v : lines.opened) curve.opened.push_back({in.ridge.vertices[v].position});
   curve.segments = std::move(lines.segments);
   for (const std::uint32_t v : lines.vertices) {
-    curve.vertices.push_back(ridge.vertices[v]);
+    curve.vertices.push_back(in.ridge.vertices[v]);
     curve.vertices.back().position = places[v];
-    curve.part.push_back(ridge.part[v]);
+    curve.part.push_back(in.ridge.part[v]);
   }
-  move_to_middle(surface, lattice, ends, lines.vertices, curve, options.context);
-  return {std::move(curve), std::move(lines.vertices)};
+  move_to_middle(in, options, ends, lines.vertices, curve);
+  return std::move(lines.vertices);
+}
+
+// With the points that each vertex has.
+LimbsAndHubs draw(const CurveInput& in, const CurveOptions& options, CurveSkeleton& curve) {
+  require_within(options.least_reach, 1e-6, 1e6,
+                 "the least length of a limb must lie between 1e-6 and 1e6 radii");
+  const std::vector<std::uint32_t> lines = draw_in_middle(in, options, curve);
+  give_points(in.basis, in.ridge, lines, curve, options.context);
+  return with_hubs(in, options, curve);
 }
 
 }  // namespace
 
-SheetMesh curve_lines(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
-                      const RidgeSheet& ridge, const CurveOptions& options) {
-  const LimbSurface surface(surface_in_frame(solid, lattice));
-  auto [curve, lines] = drawn(surface, lattice, basis, ridge, options);
-  give_points(basis, ridge, lines, curve, options.context);
-  with_hubs(solid, lattice, surface, curve, options.context);
-  return std::move(curve);
+LimbSurface limb_surface(const Solid& solid, const Lattice& lattice, unsigned threads) {
+  Mesh surface = surface_in_lattice(solid, lattice);
+  for (Vec3& p : surface.points) p = lattice.spacing * p;
+  return LimbSurface(std::move(surface), threads);
 }
 
-CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
-                             const RidgeSheet& ridge, const CurveOptions& options) {
-  const LimbSurface surface(surface_in_frame(solid, lattice));
-  auto [curve, lines] = drawn(surface, lattice, basis, ridge, options);
-  give_points(basis, ridge, lines, curve, options.context);
-  LimbsAndHubs found = with_hubs(solid, lattice, surface, curve, options.context);
-  measure(solid, lattice, surface, std::move(found), curve, options.context);
-  return std::move(curve);
+SheetMesh curve_lines(const CurveInput& input, const CurveOptions& options) {
+  CurveSkeleton curve;
+  draw(input, options, curve);
+  return curve;
+}
+
+CurveSkeleton curve_skeleton(const CurveInput& input, const CurveOptions& options) {
+  CurveSkeleton curve;
+  LimbsAndHubs found = draw(input, options, curve);
+  measure(input, options, std::move(found), curve);
+  return curve;
 }
 
 }  // namespace affskel::core

@@ -6,16 +6,26 @@
 #include "core/base/execution_context.h"
 #include "core/base/vec3.h"
 #include "core/contour/sheet_mesh.h"
+#include "core/curve/limb_surface.h"
 #include "core/lattice/lattice.h"
 #include "core/ridge/ridge_sheet.h"
 #include "core/solid/solid.h"
 
 namespace affskel::core {
 
+struct CurveInput {
+  const Solid& solid;
+  const Lattice& lattice;      ///< of this solid
+  const RidgeBasis& basis;     ///< of a field of this lattice
+  const RidgeSheet& ridge;     ///< its skeleton
+  const LimbSurface& surface;  ///< see limb_surface(): what all thresholds share
+};
+
 struct CurveOptions {
   /// Limbs that are shorter, by their own radius, have no branch; see LimbTip::reach; flat ones, by how far they
   /// lead out of what there is without them over HangingPatch::width.  Below RidgeConstants::limb_reach no more tips come.
   double least_reach = 0.9;
+  unsigned threads = 1;                 ///< the result does not depend on it
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
@@ -47,15 +57,14 @@ struct CurveSkeleton : SheetMesh {
 /// without becoming shorter (Taubin, "A signal processing approach to fair surface design", 1995), within the solid;
 /// in flat bodies that limbs hang on they are drawn anew, see draw_hub_stars().  A vertex keeps the values of the place
 /// on the ridge that it comes from, as far as a few spacings away; one that is drawn anew has those of the nearest.
-/// @param lattice of this solid.
-/// @param basis of a field of this lattice, and `ridge` its skeleton.
 /// @throws CoreError kBadInput for a reach that is not finite or not above 0; kCancelled when the context asks to
 ///   stop.
-CurveSkeleton curve_skeleton(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
-                             const RidgeSheet& ridge, const CurveOptions& options = {});
+CurveSkeleton curve_skeleton(const CurveInput& input, const CurveOptions& options = {});
 
 /// Its lines alone, without what is measured of the solid.
-SheetMesh curve_lines(const Solid& solid, const Lattice& lattice, const RidgeBasis& basis,
-                      const RidgeSheet& ridge, const CurveOptions& options = {});
+SheetMesh curve_lines(const CurveInput& input, const CurveOptions& options = {});
+
+/// The surface of a solid in the frame of its lattice, on up to `threads` threads.
+LimbSurface limb_surface(const Solid& solid, const Lattice& lattice, unsigned threads = 1);
 
 }  // namespace affskel::core

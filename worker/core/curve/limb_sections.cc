@@ -42,7 +42,8 @@ struct CutBoxes {
 
 }  // namespace
 
-LimbSections::LimbSections(const Mesh& surface) : surface_(surface), tree_(boxes_of(surface)) {
+LimbSections::LimbSections(const Mesh& surface, unsigned threads)
+    : surface_(surface), tree_(boxes_of(surface), threads) {
   for (std::size_t n = 0; n < kRays; ++n) {
     const auto [sine, cosine] = plain_sin_cos_degrees((static_cast<double>(n) + 0.5) * 360 / kRays);
     turns_[n] = {cosine, sine};
@@ -102,7 +103,11 @@ LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const
                                          double reach) const {
   Rays length;
   length.fill(reach);
-  cut(Box{place, place}.widened(reach), place, cross(u, v), [&](const auto& ends, const auto&) {
+  const Vec3 across = cross(u, v);
+  Box round = Box{place, place}.widened(reach);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::abs(across[k]) == 1) round.low[k] = round.high[k] = place[k];  // a flat box tells sooner
+  cut(round, place, across, [&](const auto& ends, const auto&) {
     const Turn p{dot(ends[0], u), dot(ends[0], v)}, q{dot(ends[1], u), dot(ends[1], v)};
     for (std::uint32_t between = rays_left_of(p) ^ rays_left_of(q); between != 0; between &= between - 1) {
       const auto n = static_cast<std::size_t>(std::countr_zero(between));

@@ -35,8 +35,8 @@ class LimbSections {
   static constexpr double kWidest = 2;
   static constexpr double kSeen = 4;  ///< balls: how far rays reach
 
-  /// @param surface closed.
-  explicit LimbSections(const Mesh& surface);
+  /// On up to `threads` threads.  @param surface closed.
+  explicit LimbSections(const Mesh& surface, unsigned threads = 1);
 
   /// @param place within the solid.
   /// @param across unit normal of the plane.

@@ -4,18 +4,25 @@
 
 #include "core/curve/limb_sections.h"
 #include "core/mesh/mesh.h"
+#include "core/solid/solid_membership.h"
 #include "core/spatial/distance_to_mesh.h"
 
 namespace affskel::core {
 
-/// The surface of a solid, with what tells how thick that is: made once, as trees over it take time.
+/// The surface of a solid, with what tells how thick that is: made once, as trees over it take time.  Immutable after
+/// construction; queries from several threads are safe.
 struct LimbSurface {
   const Mesh mesh;
-  const LimbSections sections{mesh};
-  const DistanceToMesh distance{mesh};
+  const LimbSections sections;
+  const DistanceToMesh distance;
+  const SolidMembership membership;
 
-  /// @param closed bounds a solid.
-  explicit LimbSurface(Mesh closed) : mesh(std::move(closed)) {}
+  /// On up to `threads` threads.  @param closed bounds a solid.
+  explicit LimbSurface(Mesh closed, unsigned threads = 1)
+      : mesh(std::move(closed)),
+        sections(mesh, threads),
+        distance(mesh, threads),
+        membership(mesh, threads) {}
   LimbSurface(const LimbSurface&) = delete;  // the others refer to the mesh
   LimbSurface& operator=(const LimbSurface&) = delete;
 

@@ -1,5 +1,6 @@
 #include "core/curve/sliced_lines.h"
 
+#include "core/base/parallel.h"
 #include "core/curve/limb_radii.h"
 #include "core/lattice/lattice_points.h"
 #include "core/mesh/edges.h"
@@ -29,27 +30,32 @@ std::uint32_t moved(std::span<const Vec3> places, const Adjacency& beside, const
 }  // namespace
 
 std::vector<double> given_anew(const Lattice& lattice, const VertexOfPlace& vertex_of, std::size_t vertices,
-                               std::span<std::uint32_t> nearest, ExecutionContext* context) {
-  StopCheck stop(context);
-  std::vector<double> share(vertices, 0);
-  const double one = 1 / static_cast<double>(lattice.points);
-  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-    stop.did(10);
-    std::uint32_t& vertex = nearest[rank];
-    vertex = vertex_of(lattice.spacing * Vec3{double(i), double(j), double(k)}, vertex);
-    share[vertex] += one;
+                               std::span<std::uint32_t> nearest, unsigned threads,
+                               ExecutionContext* context) {
+  const std::span<const LatticeRun> runs(lattice.axis[2].runs);
+  parallel_ranges(threads, runs.size(), [&](std::size_t begin, std::size_t end) {
+    StopCheck stop(context);
+    for_each_point(runs.subspan(begin, end - begin), [&](std::int32_t i, std::int32_t j, std::int32_t k,
+                                                         std::uint32_t rank) {
+      stop.did(10);
+      nearest[rank] = vertex_of(lattice.spacing * Vec3{double(i), double(j), double(k)}, nearest[rank]);
+    });
   });
+  std::vector<double> share(vertices, 0);
+  for (const std::uint32_t vertex : nearest) ++share[vertex];
+  for (double& part : share) part /= static_cast<double>(lattice.points);
   return share;
 }
 
 SlicedLines sliced_lines(const SlicedLinesInput& input, std::span<std::uint32_t> nearest) {
   const std::vector<Vec3> places = positions(input.curve);
-  std::vector<double> balls;
-  for (const Vec3& place : places) balls.push_back(input.surface.thickness(place));
+  std::vector<double> balls(places.size());
+  parallel_for(input.threads, places.size(),
+               [&](std::size_t v) { balls[v] = input.surface.thickness(places[v]); });
   const Adjacency beside = neighbours(places.size(), input.curve.segments);
   const std::vector<double> slices = given_anew(
       input.lattice, [&](const Vec3& at, std::uint32_t from) { return moved(places, beside, at, from); },
-      places.size(), nearest, input.context);
+      places.size(), nearest, input.threads, input.context);
   const auto lines = polylines(places.size(), input.curve.segments);
   return {places, balls, slices, slice_radii({places, lines, slices, balls, input.solid.volume}), lines};
 }

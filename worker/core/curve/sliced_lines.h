@@ -18,12 +18,13 @@ namespace affskel::core {
 /// The vertex that a place belongs to, by the vertex of the lines that it belonged to.
 using VertexOfPlace = std::function<std::uint32_t(const Vec3& at, std::uint32_t nearest)>;
 
-/// Gives each sample point another vertex.
+/// Gives each sample point another vertex, on up to `threads` threads.
+/// @param vertex_of called from several at once.
 /// @param nearest per sample point: the vertex that it has.
 /// @return per vertex: the share of all points that it has then.
 /// @throws CoreError kCancelled when the context asks to stop.
 std::vector<double> given_anew(const Lattice& lattice, const VertexOfPlace& vertex_of, std::size_t vertices,
-                               std::span<std::uint32_t> nearest, ExecutionContext* context);
+                               std::span<std::uint32_t> nearest, unsigned threads, ExecutionContext* context);
 
 /// Lines, and how thick the solid is along them.
 struct SlicedLines {
@@ -39,6 +40,7 @@ struct SlicedLinesInput {
   const Lattice& lattice;      ///< of the solid
   const LimbSurface& surface;  ///< of it, in the coordinates of the lines
   const SheetMesh& curve;      ///< lines, and no triangles
+  unsigned threads = 1;
   ExecutionContext* context = nullptr;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/collapse/collapse.h"
 #include "core/collapse/shortest_loops.h"
 #include "core/contour/dual_contour.h"
@@ -27,6 +28,10 @@
 
 namespace affskel::core {
 namespace {
+
+// With fewer points those near the surface are so many that the limbs and the derivatives, found at the same time, take
+// more memory than all that comes after them.
+constexpr std::uint32_t kBesideEachOther = 500'000;
 
 constexpr int kSmoothings = 2;  // enough to hide noise as large as triangles
 
@@ -55,8 +60,8 @@ struct WithoutNoise {
 
 // The surface of a solid, lattice coordinates.
 struct Walls {
-  Walls(const Solid& solid, const Lattice& lattice)
-      : mesh(surface_in_lattice(solid, lattice)), distance(mesh) {
+  Walls(const Solid& solid, const Lattice& lattice, unsigned threads)
+      : mesh(surface_in_lattice(solid, lattice)), distance(mesh, threads) {
     if (solid.self_intersecting) clean.emplace(mesh);
   }
 
@@ -168,7 +173,7 @@ class SheetMaker {
         basis_(basis),
         options_(options),
         parts_(solid, lattice),
-        walls_(solid, lattice) {}
+        walls_(solid, lattice, options.threads) {}
 
   RidgeSheet run() {
     find_ridges();
@@ -295,10 +300,17 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
   RidgeBasis basis{DualComplex(lattice)};
   basis.radius = surface_distance(lattice, context);
   if (solid.self_intersecting) basis.thickness = section_radii(field);
-  // One after the other: each takes about as much memory as all that is kept, and beside each other they save a tenth of
-  // the time.
-  find_limbs(solid, lattice, field, context, basis);
-  basis.derivatives = smoothed_derivatives(lattice, field, threads, context);
+  const auto limbs = [&] { find_limbs(solid, lattice, field, context, basis); };
+  const auto derivatives = [&](unsigned share) {
+    basis.derivatives = smoothed_derivatives(lattice, field, share, context);
+  };
+  if (lattice.points < kBesideEachOther) {
+    limbs();
+    derivatives(threads);
+  } else {
+    parallel_halves(
+        threads, [&](unsigned) { limbs(); }, derivatives);
+  }
   return basis;
 }
 

@@ -51,6 +51,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
 
 struct RidgeSheetOptions {
   RidgeBounds bounds;
+  unsigned threads = 1;                 ///< the result does not depend on it
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and in long ones
 };
 

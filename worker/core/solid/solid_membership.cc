@@ -25,8 +25,8 @@ int axis_of_fewest(const Mesh& mesh, const Box& box) {
 
 }  // namespace
 
-SolidMembership::SolidMembership(const Mesh& mesh)
-    : rays_(mesh), box_(box_of(mesh)), axis_(axis_of_fewest(mesh, box_)) {}
+SolidMembership::SolidMembership(const Mesh& mesh, unsigned threads)
+    : rays_(mesh, threads), box_(box_of(mesh)), axis_(axis_of_fewest(mesh, box_)) {}
 
 int SolidMembership::winding_number(const Vec3& q) const {
   const bool upward = box_.high[axis_] - q[axis_] < q[axis_] - box_.low[axis_];

@@ -14,8 +14,8 @@ namespace affskel::core {
 /// so can check it.  Keeps a reference to the mesh.  Immutable after construction; queries from several threads are safe.
 class SolidMembership {
  public:
-  /// @param mesh closed, outward-oriented.
-  explicit SolidMembership(const Mesh& mesh);
+  /// On up to `threads` threads.  @param mesh closed, outward-oriented.
+  explicit SolidMembership(const Mesh& mesh, unsigned threads = 1);
 
   /// Whether the surface winds round q at least once, or does so round one of the eight points at
   /// +-`tolerance` from q along each axis: a sample point on the surface belongs to the solid.

@@ -45,8 +45,8 @@ Vec3 nearest_place(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& 
   });
 }
 
-DistanceToMesh::DistanceToMesh(const Mesh& mesh)
-    : mesh_(mesh), tree_(boxes_of(mesh)), corners_(corners_of(mesh)), corner_index_(corners_) {}
+DistanceToMesh::DistanceToMesh(const Mesh& mesh, unsigned threads)
+    : mesh_(mesh), tree_(boxes_of(mesh), threads), corners_(corners_of(mesh)), corner_index_(corners_) {}
 
 double DistanceToMesh::nearest(const Vec3& place) const {
   return norm(nearest_place(place) - place);

@@ -13,8 +13,9 @@ namespace affskel::core {
 /// construction; queries from several threads are safe.
 class DistanceToMesh {
  public:
-  /// O(N log N).  @param mesh of one triangle at least, of which two corners may be one: a segment.
-  explicit DistanceToMesh(const Mesh& mesh);
+  /// O(N log N), on up to `threads` threads.
+  /// @param mesh of one triangle at least, of which two corners may be one: a segment.
+  explicit DistanceToMesh(const Mesh& mesh, unsigned threads = 1);
 
   /// To the nearest point of a triangle, in the mesh's unit.
   double nearest(const Vec3& place) const;

@@ -12,7 +12,8 @@ Curved::Curved(const Mesh& mesh, const Matrix3& axes, const std::string& directi
 CurveSkeleton Curved::at(double least_reach) const {
   CurveOptions options;
   options.least_reach = least_reach;
-  return curve_skeleton(solid_.solid, solid_.lattice, basis_, ridge_, options);
+  const LimbSurface surface = limb_surface(solid_.solid, solid_.lattice);
+  return curve_skeleton({solid_.solid, solid_.lattice, basis_, ridge_, surface}, options);
 }
 
 CurveGraph Curved::graph(const CurveSkeleton& curve) const {
