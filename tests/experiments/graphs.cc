@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/none.h"
 #include "core/curve/curve_graph.h"
 #include "core/curve/curve_skeleton.h"
 #include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/similarity.h"
+#include "core/spatial/point_index.h"
 #include "experiments.h"
 #include "job.h"
 #include "limb_ends.h"
@@ -29,6 +31,11 @@ struct Lines {
   std::vector<core::Vec3> places;  // along all of them
   std::vector<core::CurveBranch> limbs;
   std::uint32_t links = 0, others = 0;
+  std::vector<core::Vec3> middles;  // of limbs
+  std::vector<double> volumes;      // of limbs, mesh units cubed
+  std::vector<core::Vec3> points;   // all sample points
+  std::vector<std::uint32_t> limb;  // per sample point: its limb; kNone of others
+  double volume_of_point = 0;
 
   std::string text() const { return format("%zu, %u, %u", limbs.size(), links, others); }
 };
@@ -52,24 +59,51 @@ Lines lines_of(const Job& job) {
   std::map<std::uint32_t, double> share;
   for (const core::CurveBranch& branch : graph.branches) share[piece[branch.from]] += branch.share;
   const auto largest = std::ranges::max_element(share, {}, [](const auto& one) { return one.second; })->first;
-  for (const core::CurveBranch& branch : graph.branches) {
+  std::vector<std::uint32_t> number(graph.branches.size(), core::kNone);
+  for (std::size_t n = 0; n < graph.branches.size(); ++n) {
+    const core::CurveBranch& branch = graph.branches[n];
     if (piece[branch.from] != largest) continue;
-    if (branch.kind == core::BranchKind::kLimb)
+    if (branch.kind == core::BranchKind::kLimb) {
+      number[n] = static_cast<std::uint32_t>(found.limbs.size());
       found.limbs.push_back(branch);
-    else
+      found.middles.push_back(places[branch.vertices[branch.vertices.size() / 2]]);
+      found.volumes.push_back(branch.share * job.solid.volume);
+    } else {
       ++(branch.kind == core::BranchKind::kLink ? found.links : found.others);
+    }
   }
+  found.points = all_points(job).place;
+  for (const std::uint32_t vertex : curve.nearest) found.limb.push_back(number[graph.part[vertex]]);
+  found.volume_of_point = job.solid.volume / static_cast<double>(found.points.size());
   return found;
 }
 
-// By how much lengths and shares of limbs differ at most, percent.
-double greatest_change(const Lines& one, const Lines& other) {
-  double most = 0;
-  for (std::size_t n = 0; n < one.limbs.size(); ++n) {
-    for (const auto value : {&core::CurveBranch::length, &core::CurveBranch::share})
-      most = std::max(most, 100 * std::abs(other.limbs[n].*value / (one.limbs[n].*value) - 1));
+// Of limbs that are the same, by how much they differ at most, percent.
+struct Change {
+  double length = 0;
+  double volume = 0;    // as measured
+  double solid = 0;     // of what the solid has in the place of the clean limb
+  double measured = 0;  // of the volume beside that: what is the measure's own
+};
+
+void take(double value, double of, double& most) {
+  most = std::max(most, 100 * std::abs(value / of - 1));
+}
+
+// Limbs are the same whose middles are nearest.
+void compare(const Lines& clean, const Lines& noisy, Change& most) {
+  const core::PointIndex points(clean.points), middles(noisy.middles);
+  std::vector<double> there(clean.limbs.size(), 0);
+  for (const core::Vec3& point : noisy.points)
+    if (const std::uint32_t limb = clean.limb[points.find(point).number]; limb != core::kNone)
+      there[limb] += noisy.volume_of_point;
+  for (std::size_t n = 0; n < clean.limbs.size(); ++n) {
+    const std::size_t same = middles.find(clean.middles[n]).number;
+    take(noisy.limbs[same].length, clean.limbs[n].length, most.length);
+    take(noisy.volumes[same], clean.volumes[n], most.volume);
+    take(there[n], clean.volumes[n], most.solid);
+    take(noisy.volumes[same], there[n], most.measured);
   }
-  return most;
 }
 
 void study(const NamedMesh& body, const Setting& setting, Table& table, Report& report) {
@@ -78,7 +112,8 @@ void study(const NamedMesh& body, const Setting& setting, Table& table, Report& 
   const Lines clean = lines_of(compute(body.mesh, options));
   std::string other;
   std::uint32_t same = 0;
-  double there = 0, back = 0, change = 0;
+  double there = 0, back = 0;
+  Change change;
   for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed) {
     const Lines noisy =
         lines_of(compute(core::perturb(body.mesh, {kNoise * core::box_diagonal(body.mesh), seed}), options));
@@ -87,13 +122,15 @@ void study(const NamedMesh& body, const Setting& setting, Table& table, Report& 
     back += 100 * alike.a_in_b.share_within(radius) / setting.seeds;
     if (noisy.text() == clean.text()) {
       ++same;
-      change = std::max(change, greatest_change(clean, noisy));
+      compare(clean, noisy, change);
     } else {
       other += (other.empty() ? "" : "; ") + noisy.text();
     }
   }
   table.rows.push_back({body.name, clean.text(), format("%u of %u", same, setting.seeds), other,
-                        format("%.0f / %.0f", there, back), format("%.0f", change)});
+                        format("%.0f / %.0f", there, back), format("%.0f", change.length),
+                        format("%.0f", change.volume), format("%.0f", change.solid),
+                        format("%.0f", change.measured)});
   // Noise is larger than the triangles of the other one.
   if (!setting.quick && setting.meshes.empty() && body.mesh.triangles.size() <= 1000)
     report.expect(body.name + ": seeds of eight with the same lines", 8.0 * same / setting.seeds, kLeastSame,
@@ -108,9 +145,12 @@ void graph_experiment(const Setting& setting, Report& report) {
       "Not published: at 100,000 points, noise of 1 % of the diagonal, as large as fingers and feet: the limbs, links and other "
       "lines that the largest piece of the curve skeleton has at the threshold 5, which leaves out what is shorter than five of "
       "its radii; of how many seeds it has the same, and what the others have; which share of the lines, in percent, is within "
-      "the diagonal of a voxel of 1/128 of the longest side of the clean ones', and back; and by how much the length or the "
-      "volume of a limb differs at most, percent, where lines are the same.");
-  Table table{{"body", "limbs, links, others", "the same", "else", "there / back", "greatest change"}, {}};
+      "the diagonal of a voxel of 1/128 of the longest side of the clean ones', and back; and, where lines are the same, by how "
+      "much at most, in percent, the length and the volume of a limb differ, what the noisy solid itself has in the place of "
+      "the clean limb differs from that, and the limb's volume from what the solid has there.");
+  Table table{{"body", "limbs, links, others", "the same", "else", "there / back", "length", "volume",
+               "the solid's there", "volume beside that"},
+              {}};
   for (const NamedMesh& body : bodies_to_compare(setting)) study(body, setting, table, report);
   report.table(table);
 }
