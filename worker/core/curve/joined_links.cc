@@ -5,13 +5,13 @@
 #include <set>
 #include <utility>
 
+#include "core/base/disjoint_sets.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
 namespace {
 
-// Joints are one up to so many of the smaller one's balls from each other: of the larger one's the two ends of a jar's
-// handle were one, where its belly begins.
+// Joints are one up to so many of the smaller one's balls from each other.
 constexpr double kTogether = 1.3;
 
 // Vertices, the first counted twice.
@@ -61,11 +61,25 @@ class Joints {
   }
 
   // Of all that have become a each with all that have become b: by one between them a trunk's two ends would be one.
-  bool are_together(std::uint32_t a, std::uint32_t b) const {
+  bool are_within(std::uint32_t a, std::uint32_t b, double way) const {
     for (const std::uint32_t v : members_[a])
       for (const std::uint32_t w : members_[b])
-        if (distance(v, w) >= kTogether * std::min(ball(a), ball(b))) return false;
+        if (distance(v, w) >= way) return false;
     return true;
+  }
+
+  // Without it its ends do not hang together.
+  bool is_bridge(std::uint32_t which) const {
+    DisjointSets pieces(joint_.size());
+    for (std::uint32_t n = 0; n < polylines_.size(); ++n)
+      if (n != which) pieces.unite(polylines_[n].front(), polylines_[n].back());
+    return pieces.find(polylines_[which].front()) != pieces.find(polylines_[which].back());
+  }
+
+  // The ends of a jar's handle, where its belly begins, are not one for lying in that.
+  bool are_together(std::uint32_t a, std::uint32_t b, std::uint32_t link) const {
+    const auto [smaller, larger] = std::minmax({ball(a), ball(b)});
+    return are_within(a, b, kTogether * smaller) || (are_within(a, b, larger) && is_bridge(link));
   }
 
   // The line itself, not only its ends: a handle leads from a trunk's ball back into it.
@@ -94,8 +108,8 @@ class Joints {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
     if (rank(b) > rank(a)) std::swap(a, b);
     const std::size_t looked_at =
-        members_[a].size() * members_[b].size() + polylines_[n].size() + ends_[a].size();
-    if (a == b || !are_together(a, b) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
+        members_[a].size() * members_[b].size() + polylines_[n].size() + ends_[a].size() + polylines_.size();
+    if (a == b || !are_together(a, b, n) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
       return looked_at;
     gone_[n] = 1;
     for (const std::uint32_t v : members_[b]) joint_[v] = a;

@@ -88,10 +88,23 @@ TEST(JoinedLinks, JointsInEachOthersBallsBecomeOne) {
 
 TEST(JoinedLinks, JointsFartherApartStay) {
   Fork fork(1.35);
-  fork.ball[1] = 1.5;  // where a jar's belly begins its ball would hold the handle's other end
   const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
   EXPECT_EQ(joined.vertices, fork.lines.vertices);
   EXPECT_EQ(joined.segments, fork.lines.segments);
+}
+
+// Two hind legs meet below the end of a dog's trunk, within its ball; where a jar's belly begins its ball holds the handle's
+// other end, too.
+TEST(JoinedLinks, ALargeBallHoldsWhatHangsOnItAndNoHandle) {
+  for (const bool is_handle : {false, true}) {
+    Fork fork(1.35);
+    fork.ball[1] = 1.5;
+    if (is_handle) fork.lines.segments.push_back({5, 8});  // an end on each side
+    std::sort(fork.lines.segments.begin(), fork.lines.segments.end());
+    const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
+    EXPECT_EQ(count(fork.degrees(joined), 4), is_handle ? 0U : 1U);
+    EXPECT_EQ(count(fork.degrees(joined), 3), is_handle ? 2U : 0U);
+  }
 }
 
 // A neck leaves an elephant's trunk between hips and shoulders, near both.
