@@ -164,6 +164,25 @@ TEST(LimbHubs, AreNoNetworks) {
   EXPECT_TRUE(cube.found().hubs.empty());
 }
 
+// A seat between two arms fills 0.68 of its ellipsoid.
+TEST(LimbHubs, AreSeatsWithArms) {
+  Cube chair(joined(joined(make_box(8, 8, 2.4), moved(make_box(8, 1.2, 4), {0, 0, 0})),
+                    moved(make_box(8, 1.2, 4), {0, 6.8, 0})));
+  const std::uint32_t joint = chair.add(chair.middle, 2);
+  chair.go_out(joint, {{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1, 0}}, 2.2, 2, 4.2);
+  EXPECT_EQ(chair.found().hubs.size(), 1U);
+}
+
+// The lines of a palm meet at its edge, and what is nearest to their joint is little of it.
+TEST(LimbHubs, GrowFromWhatLiesAboutABody) {
+  Cube palm({8, 8, 2});
+  const std::uint32_t joint = palm.add(palm.middle + Vec3{-3, 0, 0}, 2);
+  palm.go_out(joint, {{0.1, 0, 0}, {0.07, 0.07, 0}, {0.07, -0.07, 0}, {-0.1, 0, 0}}, 1.5, 1, 2.5);
+  const LimbHubs found = palm.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_LT(norm(found.hubs[0].centre - palm.middle), 1);
+}
+
 // A limb grows where it turns a corner: of a bar with thin arms nothing else makes a hub.
 TEST(LimbHubs, AreNoBars) {
   for (const double length : {4., 6.}) {
