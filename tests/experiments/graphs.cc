@@ -31,10 +31,10 @@ struct Lines {
   std::vector<core::Vec3> places;  // along all of them
   std::vector<core::CurveBranch> limbs;
   std::uint32_t links = 0, others = 0;
-  std::vector<core::Vec3> middles;  // of limbs
-  std::vector<double> volumes;      // of limbs, mesh units cubed
-  std::vector<core::Vec3> points;   // all sample points
-  std::vector<std::uint32_t> limb;  // per sample point: its limb; kNone of others
+  std::vector<core::Vec3> middles;           // of limbs
+  std::vector<double> volumes;               // of limbs, mesh units cubed
+  std::vector<core::Vec3> points;            // all sample points
+  std::vector<std::uint32_t> limb_of_point;  // per sample point: its limb; kNone of others
   double volume_of_point = 0;
 
   std::string text() const { return format("%zu, %u, %u", limbs.size(), links, others); }
@@ -73,7 +73,7 @@ Lines lines_of(const Job& job) {
     }
   }
   found.points = all_points(job).place;
-  for (const std::uint32_t vertex : curve.nearest) found.limb.push_back(number[graph.part[vertex]]);
+  for (const std::uint32_t vertex : curve.nearest) found.limb_of_point.push_back(number[graph.part[vertex]]);
   found.volume_of_point = job.solid.volume / static_cast<double>(found.points.size());
   return found;
 }
@@ -95,7 +95,7 @@ void compare(const Lines& clean, const Lines& noisy, Change& most) {
   const core::PointIndex points(clean.points), middles(noisy.middles);
   std::vector<double> there(clean.limbs.size(), 0);
   for (const core::Vec3& point : noisy.points)
-    if (const std::uint32_t limb = clean.limb[points.find(point).number]; limb != core::kNone)
+    if (const std::uint32_t limb = clean.limb_of_point[points.find(point).number]; limb != core::kNone)
       there[limb] += noisy.volume_of_point;
   for (std::size_t n = 0; n < clean.limbs.size(); ++n) {
     const std::size_t same = middles.find(clean.middles[n]).number;

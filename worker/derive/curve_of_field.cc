@@ -44,6 +44,7 @@ core::SheetMesh CurveOfField::lines_at(double threshold) const {
 core::CurveInput CurveOfField::input() const {
   const core::Solid& solid = field_.job().solid();
   if (!surface_)
+    // No make_unique: it cannot be moved.
     surface_.reset(new core::LimbSurface(core::limb_surface(solid, field_.lattice(), field_.threads())));
   return {solid, field_.lattice(), ridge_.basis(), sheet_, *surface_};
 }

@@ -12,7 +12,8 @@
 
 namespace affskel::worker {
 
-/// The curve skeleton of a field, at any threshold, as far as it is not known.  Keeps references to its arguments.
+/// The curve skeleton of a field, at any threshold, as far as it is not known.  For one thread.  Keeps references to its
+/// arguments.
 class CurveOfField {
  public:
   CurveOfField(const FinishedField& field, const RidgeOfField& ridge)

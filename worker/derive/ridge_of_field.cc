@@ -44,7 +44,7 @@ void RidgeOfField::find(std::initializer_list<double> thresholds) const {
       unknown.push_back(bounds);
   std::vector<core::RidgeSheet> found(unknown.size());
   core::parallel_for(field_.threads(), unknown.size(), [&](std::size_t n) {
-    const unsigned threads = unknown.size() > 1 ? 1 : field_.threads();
+    const auto threads = std::max(1U, field_.threads() / static_cast<unsigned>(unknown.size()));
     found[n] = core::ridge_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), basis(),
                                  {.bounds = unknown[n], .threads = threads, .context = field_.context()});
   });

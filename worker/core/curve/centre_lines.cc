@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 
 #include "core/base/matrix3.h"
 #include "core/base/parallel.h"
@@ -153,6 +155,7 @@ class CentreLines {
 
   struct Free {
     std::size_t first = 0, last = 0;  // of a line, the vertices that are in no joint
+    std::size_t count() const { return std::max(first, last) - first; }
   };
   Free free_part(const std::vector<std::uint32_t>& line) const {
     return {in_joint(line, false), line.size() - in_joint(line, true)};
@@ -207,31 +210,40 @@ class CentreLines {
   // Each goes to a parabola through what lies within a radius on either side, so that no bend is narrower, and by the mean
   // of the shifts there.  Means of the shifts alone leave waves of half that length.
   void to_middle() {
-    for (const auto& line : lines_) {
-      const Free free = free_part(line);
-      std::vector<Shift> shifts(std::max(free.first, free.last) - free.first);
-      parallel_for(input_.threads, shifts.size(),
-                   [&](std::size_t n) { shifts[n] = shift_of(line, free.first + n); });
-      std::vector<double> along;
-      std::vector<Vec3> before;
-      for (std::size_t n = free.first; n < free.last; ++n) {
-        along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - before.back()));
-        before.push_back(places_[line[n]]);
+    std::vector<Free> free;
+    std::vector<std::pair<std::size_t, std::size_t>> all;  // lines, and their vertices that are free
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      free.push_back(free_part(lines_[l]));
+      for (std::size_t n = free[l].first; n < free[l].last; ++n) all.push_back({l, n});
+    }
+    std::vector<Shift> shifts(all.size());
+    parallel_for(input_.threads, all.size(),
+                 [&](std::size_t k) { shifts[k] = shift_of(lines_[all[k].first], all[k].second); });
+    std::size_t before = 0;
+    for (std::size_t l = 0; l < lines_.size(); before += free[l].count(), ++l)
+      to_middle(lines_[l], free[l], std::span(shifts).subspan(before, free[l].count()));
+  }
+
+  void to_middle(const std::vector<std::uint32_t>& line, const Free& free, std::span<const Shift> shifts) {
+    std::vector<double> along;
+    std::vector<Vec3> before;
+    for (std::size_t n = free.first; n < free.last; ++n) {
+      along.push_back(n == free.first ? 0 : along.back() + norm(places_[line[n]] - before.back()));
+      before.push_back(places_[line[n]]);
+    }
+    std::size_t low = 0;
+    for (std::size_t n = 0; n < shifts.size(); ++n) {
+      const double stretch = kDirection * shifts[n].ball;
+      while (along[n] - along[low] > stretch) ++low;
+      while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
+      Vec3 sum;
+      double count = 0;
+      ParabolaFit fit;
+      for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count) {
+        sum = sum + shifts[k].weight * shifts[k].way;
+        fit.add((along[k] - along[n]) / stretch, before[k]);
       }
-      std::size_t low = 0;
-      for (std::size_t n = 0; n < shifts.size(); ++n) {
-        const double stretch = kDirection * shifts[n].ball;
-        while (along[n] - along[low] > stretch) ++low;
-        while (low > 0 && along[n] - along[low - 1] <= stretch) --low;
-        Vec3 sum;
-        double count = 0;
-        ParabolaFit fit;
-        for (std::size_t k = low; k < shifts.size() && along[k] - along[n] <= stretch; ++k, ++count) {
-          sum = sum + shifts[k].weight * shifts[k].way;
-          fit.add((along[k] - along[n]) / stretch, before[k]);
-        }
-        go(line[free.first + n], (count < kFitted ? before[n] : fit.at_0()) + (1 / count) * sum);
-      }
+      go(line[free.first + n], (count < kFitted ? before[n] : fit.at_0()) + (1 / count) * sum);
     }
   }
 

@@ -16,8 +16,8 @@ struct CentreLinesInput {
   /// Per vertex: where the end of a line is known to lie about, else nothing is known.
   std::span<const Vec3> tip;
   std::span<const char> has_tip;
-  double spacing = 0;  ///< of the lattice: what tells ends apart
-  unsigned threads = 1;
+  double spacing = 0;    ///< of the lattice: what tells ends apart
+  unsigned threads = 1;  ///< the result does not depend on it
   ExecutionContext* context = nullptr;
 };
 

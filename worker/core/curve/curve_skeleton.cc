@@ -206,7 +206,9 @@ void find_distances(const CurveInput& in, unsigned threads, CurveSkeleton& curve
   const auto distance = [&](const Vec3& position) {
     return in.solid.scale() * surface.nearest(scaled_from_frame(in.lattice, position));
   };
-  for (const SheetVertex& vertex : curve.vertices) curve.distance.push_back(distance(vertex.position));
+  curve.distance.resize(curve.vertices.size());
+  parallel_for(threads, curve.vertices.size(),
+               [&](std::size_t v) { curve.distance[v] = distance(curve.vertices[v].position); });
   for (Opening& opening : curve.opened) opening.distance = distance(opening.place);
 }
 

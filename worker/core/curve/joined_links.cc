@@ -19,8 +19,10 @@ constexpr std::size_t kLeastLoop = 4;
 
 class Joints {
  public:
-  Joints(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball)
-      : lines_(lines),
+  Joints(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball,
+         ExecutionContext* context)
+      : stop_(context),
+        lines_(lines),
         places_(places),
         ball_(ball),
         polylines_(polylines(lines.vertices.size(), lines.segments)),
@@ -40,9 +42,8 @@ class Joints {
     std::sort(links_.begin(), links_.end());
   }
 
-  SheetLines run(ExecutionContext* context) {
-    StopCheck stop(context);
-    for (const auto& [length, n] : links_) stop.did(10 * join(n));
+  SheetLines run() {
+    for (const auto& [length, n] : links_) stop_.did(10 * join(n));
     return drawn();
   }
 
@@ -69,7 +70,8 @@ class Joints {
   }
 
   // Without it its ends do not hang together.
-  bool is_bridge(std::uint32_t which) const {
+  bool is_bridge(std::uint32_t which) {
+    stop_.did(joint_.size());
     DisjointSets pieces(joint_.size());
     for (std::uint32_t n = 0; n < polylines_.size(); ++n)
       if (n != which) pieces.unite(polylines_[n].front(), polylines_[n].back());
@@ -77,7 +79,7 @@ class Joints {
   }
 
   // The ends of a jar's handle, where its belly begins, are not one for lying in that.
-  bool are_together(std::uint32_t a, std::uint32_t b, std::uint32_t link) const {
+  bool are_together(std::uint32_t a, std::uint32_t b, std::uint32_t link) {
     const auto [smaller, larger] = std::minmax({ball(a), ball(b)});
     return are_within(a, b, kTogether * smaller) || (are_within(a, b, larger) && is_bridge(link));
   }
@@ -108,8 +110,8 @@ class Joints {
     std::uint32_t a = joint_[polylines_[n].front()], b = joint_[polylines_[n].back()];
     if (rank(b) > rank(a)) std::swap(a, b);
     const std::size_t looked_at =
-        members_[a].size() * members_[b].size() + polylines_[n].size() + ends_[a].size() + polylines_.size();
-    if (a == b || !are_together(a, b, n) || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b))
+        members_[a].size() * members_[b].size() + polylines_[n].size() + ends_[a].size();
+    if (a == b || !lies_in_balls(polylines_[n], a, b) || would_meet(n, a, b) || !are_together(a, b, n))
       return looked_at;
     gone_[n] = 1;
     for (const std::uint32_t v : members_[b]) joint_[v] = a;
@@ -140,6 +142,7 @@ class Joints {
     return numbered_anew(lines_, stays, std::move(segments));
   }
 
+  StopCheck stop_;
   const SheetLines& lines_;
   std::span<const Vec3> places_;
   std::span<const double> ball_;
@@ -156,7 +159,7 @@ class Joints {
 
 SheetLines joined_links(const SheetLines& lines, std::span<const Vec3> places, std::span<const double> ball,
                         ExecutionContext* context) {
-  return Joints(lines, places, ball).run(context);
+  return Joints(lines, places, ball, context).run();
 }
 
 }  // namespace affskel::core

@@ -17,14 +17,13 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kThick = 1.55;   // times as thick as all its limbs but the thickest
-constexpr double kThicker = 1.4;  // times as thick as the thickest
-constexpr double kGrown = 1.1;    // times the ellipsoid: what lies just outside is no limb's
-constexpr double kFilled = 0.66;  // of the ellipsoid with its moments: a network fills less
-constexpr double kFilledElse =
-    0.74;  // grown from about a body, or beside those that it might join: half of a gear fills less
-constexpr double kAbout = 2;       // times the ellipsoid of a body: what may grow, too
-constexpr double kAsFilled = 0.9;  // times what those that it joins fill of theirs
+constexpr double kThick = 1.55;           // times as thick as all its limbs but the thickest
+constexpr double kThicker = 1.4;          // times as thick as the thickest
+constexpr double kGrown = 1.1;            // times the ellipsoid: what lies just outside is no limb's
+constexpr double kFilled = 0.66;          // of the ellipsoid with its moments: a network fills less
+constexpr double kFilledStrictly = 0.74;  // from about a body, or beside others: half of a gear fills less
+constexpr double kAbout = 2;              // times the ellipsoid of a body: what may grow, too
+constexpr double kAsFilled = 0.9;         // times what those that it joins fill of theirs
 constexpr double kTaken =
     1.5;  // times what has grown, with what of limbs that it would grow along lies in it
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
@@ -47,9 +46,11 @@ class FindHubs {
     parted_ = parted_lines({in_.places, in_.lines, in_.radius, moments_, in_.lattice.spacing});
     runs_out_.resize(parted_.limbs.size());
     join_what_touches();
-    for (const bool is_wide : {false, true})
+    for (const bool is_wide : {false, true}) {
+      std::fill(is_tried_.begin(), is_tried_.end(), 0);
       for (std::uint32_t v = 0; v < ends_.size(); ++v)
         if (parted_.is_body[v] && parted_.bodies.find(v) == v) add_hub(v, is_wide);
+    }
     number_hubs();
     return std::move(result_);
   }
@@ -79,56 +80,59 @@ class FindHubs {
 
   // A hub as large as grows from a body, as far as no other has that.  Those that it joins are no longer there; where it is
   // none with them, it grows beside them.  What held a body, and was none, is what would grow from that.
-  // @param is_wide whether it begins with what lies about the body, too: what is nearest to a joint may be little of a palm.
+  // @param is_wide whether it begins with what lies about the body, too, where that has none: what is nearest to a joint may be
+  // little of a palm.
   void add_hub(std::uint32_t body, bool is_wide) {
     std::vector<std::uint32_t> own;
     PlaceMoments all;
+    bool has_hub = false;
     for (std::uint32_t v = body; v < ends_.size(); ++v) {
-      if (!parted_.is_body[v] || parted_.bodies.find(v) != body || result_.of[v] != kNone) continue;
+      if (!parted_.is_body[v] || parted_.bodies.find(v) != body) continue;
+      has_hub = has_hub || result_.of[v] != kNone;
+      if (result_.of[v] != kNone) continue;
       own.push_back(v);
       all.add(moments_[v]);
     }
     const auto any = [&](const auto& is) { return std::any_of(own.begin(), own.end(), is); };
     if (!(all.count > 0) || !any([&](std::uint32_t v) { return is_joint(v); }) ||
-        (!is_wide && !any([&](std::uint32_t v) { return !is_tried_[v]; })))
+        !any([&](std::uint32_t v) { return !is_tried_[v]; }) ||
+        (is_wide && (has_hub || !take_about(body, all, own))))
       return;
     bool joins = true;
-    if (is_wide) {
-      if (take_about(own, all)) grow_hub(own, all, kFilledElse, joins);
-    } else if (!grow_hub(own, all, kFilled, joins) && !joins) {
-      grow_hub(own, all, kFilledElse, joins);
-    }
+    if (!grow_hub(own, is_wide ? kFilledStrictly : kFilled, joins) && !joins && !is_wide)
+      grow_hub(own, kFilledStrictly, joins);
   }
 
-  // @return whether it has come to no end of a long limb.
-  bool take_about(std::vector<std::uint32_t>& own, PlaceMoments& all) {
-    const double count = all.count;
-    const std::uint32_t body = parted_.bodies.find(own.front());
+  // Adds to what is a body's own what lies about it.
+  // @return whether that is anything, and no end of a long limb, which the body would grow along.
+  bool take_about(std::uint32_t body, const PlaceMoments& all, std::vector<std::uint32_t>& own) {
+    stop_.did(8 * ends_.size());
+    const std::size_t before = own.size();
     LimbHub about;
     fit(all, about);
     about.form = (1 / (kAbout * kAbout)) * about.form;
     for (std::uint32_t v = 0; v < ends_.size(); ++v) {
       if (result_.of[v] != kNone || about.outside(in_.places[v]) >= 0) continue;
-      if (is_long_end(v, count)) return false;
+      if (is_long_end(v, all.count)) return false;
       if (parted_.is_body[v] && parted_.bodies.find(v) == body) continue;
       own.push_back(v);
-      all.add(moments_[v]);
     }
-    return true;
+    return own.size() > before;
   }
 
   // @param joins whether it may join others; false then where it has, and was none.
-  bool grow_hub(std::span<const std::uint32_t> own, const PlaceMoments& all, double least_filled,
-                bool& joins) {
+  bool grow_hub(std::span<const std::uint32_t> own, double least_filled, bool& joins) {
     const std::vector<std::uint32_t> before = result_.of;
     const auto number = static_cast<std::uint32_t>(result_.hubs.size());
     std::fill(runs_out_.begin(), runs_out_.end(), 0);
-    Growth growth{number, joins};
-    growth.least_filled = least_filled;
+    Growth growth{.number = number, .joins = joins, .least_filled = least_filled};
     do {
       result_.of = before;
-      for (const std::uint32_t v : own) result_.of[v] = number;
-      growth.all = all;
+      growth.all = {};
+      for (const std::uint32_t v : own) {
+        result_.of[v] = number;
+        growth.all.add(moments_[v]);
+      }
     } while (!grow(growth));
     if (is_hub(growth)) {
       growth.hub.joint = joint_of(number, growth.hub.centre);
@@ -179,11 +183,11 @@ class FindHubs {
   // What grows, to a hub perhaps.
   struct Growth {
     std::uint32_t number;
-    bool joins;  // hubs that lie in it
+    bool joins;           // hubs that lie in it
+    double least_filled;  // of its ellipsoid
     PlaceMoments all = {};
     LimbHub hub = {};
     bool has_joined = false;
-    double least_filled = 0;  // of its ellipsoid
   };
 
   // Until it holds no more.

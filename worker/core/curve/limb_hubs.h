@@ -43,11 +43,12 @@ struct LimbHubsInput {
 /// From what no limb has (see parted_lines()), as far as it hangs together in the solid, with a joint, a hub grows: as large as
 /// an ellipsoid with its moments, it takes what is nearest to lines in that, too, and so on, until it holds no more, but not
 /// along a limb that is longer than it is thick, to its free end; those that both hold the place between their middles are
-/// one, if they fill one ellipsoid about as well.  Where none is found so, one may grow from what lies in twice the ellipsoid of a
-/// body.  It is a hub where a ball as large is 1.4 times as thick as the thickest
-/// limb there and 1.55 times as the others, unless it fills less than 0.66 of the ellipsoid, 0.74 where it grew from about a body, a network, is 2.25 times as
-/// long as wide, a limb, has its middle outside the solid, a ring, or holds the middle of a limb and neither end.  Its limbs
-/// begin where they leave the ellipsoid, or within, where their sections are as beyond, or beyond, where these suddenly grow.
+/// one, if they fill one ellipsoid about as well.  Where no hub is found so, one grows from what lies in twice the ellipsoid.
+/// It is a hub where a ball as large is 1.4 times as thick as the thickest limb there and 1.55 times as the others, unless it
+/// fills less than 0.66 of the ellipsoid (0.74 in the second growth, and beside hubs that it might have joined), a network,
+/// is 2.25 times as long as wide, a limb, has its middle outside the solid, a ring, or holds the middle of a limb and neither
+/// end.  Its limbs begin where they leave the ellipsoid, or within, where their sections are as beyond, or beyond, where
+/// these suddenly grow.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core

@@ -105,8 +105,8 @@ LimbSections::Rays LimbSections::outline(const Vec3& place, const Vec3& u, const
   length.fill(reach);
   const Vec3 across = cross(u, v);
   Box round = Box{place, place}.widened(reach);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::abs(across[k]) == 1) round.low[k] = round.high[k] = place[k];  // a flat box tells sooner
+  for (std::size_t k = 0; k < 3; ++k)  // across an axis, exactly: a flat box tells sooner
+    if (across[(k + 1) % 3] == 0 && across[(k + 2) % 3] == 0) round.low[k] = round.high[k] = place[k];
   cut(round, place, across, [&](const auto& ends, const auto&) {
     const Turn p{dot(ends[0], u), dot(ends[0], v)}, q{dot(ends[1], u), dot(ends[1], v)};
     for (std::uint32_t between = rays_left_of(p) ^ rays_left_of(q); between != 0; between &= between - 1) {

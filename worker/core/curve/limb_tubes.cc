@@ -63,7 +63,7 @@ class LimbTubes {
       if (is_handle_of(other, limb) || std::sqrt(other.box.squared_distance(at)) >= least) return false;
       const std::size_t n = nearest_in(other, at);
       const double depth = depth_below(other, n, at);
-      if (depth < least && is_near_joint(other, n)) {
+      if (depth < least && may_take(other, n, limb)) {
         least = depth;
         owner = own_vertex(other, n);
       }
@@ -203,9 +203,9 @@ class LimbTubes {
     return owner;
   }
 
-  // Elsewhere it comes close by chance, as a hand to a hip.
-  bool is_near_joint(const Limb& limb, std::size_t n) const {
-    return tubed_.is_shared[limb.vertices[n]] != 0;
+  // Elsewhere a limb that is no thicker comes close by chance, as a hand to a hip.
+  bool may_take(const Limb& limb, std::size_t n, const Limb& from) const {
+    return tubed_.is_shared[limb.vertices[n]] != 0 || limb.size > kClearlyThicker * from.size;
   }
 
   // It has no more than what the walk along lines takes to it: noise makes some within a body's hips.
@@ -224,7 +224,7 @@ class LimbTubes {
       const std::size_t n = nearest_in(other, at);
       const std::uint32_t found = own_vertex(other, n);
       const double way = norm(at - places_[found]);
-      if (way >= least || tubed_.limb_of[found] == kNone || !is_near_joint(other, n)) return false;
+      if (way >= least || tubed_.limb_of[found] == kNone || !may_take(other, n, limb)) return false;
       least = way;
       nearest = found;
       return false;

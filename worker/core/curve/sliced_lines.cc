@@ -33,8 +33,11 @@ std::vector<double> given_anew(const Lattice& lattice, const VertexOfPlace& vert
                                std::span<std::uint32_t> nearest, unsigned threads,
                                ExecutionContext* context) {
   const std::span<const LatticeRun> runs(lattice.axis[2].runs);
-  parallel_ranges(threads, runs.size(), [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kPerThread = 8;  // some take longer than others
+  const std::size_t parts = threads <= 1 ? 1 : kPerThread * threads;
+  parallel_for(threads, parts, [&](std::size_t part) {
     StopCheck stop(context);
+    const std::size_t begin = runs.size() * part / parts, end = runs.size() * (part + 1) / parts;
     for_each_point(runs.subspan(begin, end - begin), [&](std::int32_t i, std::int32_t j, std::int32_t k,
                                                          std::uint32_t rank) {
       stop.did(10);

@@ -40,7 +40,7 @@ struct SlicedLinesInput {
   const Lattice& lattice;      ///< of the solid
   const LimbSurface& surface;  ///< of it, in the coordinates of the lines
   const SheetMesh& curve;      ///< lines, and no triangles
-  unsigned threads = 1;
+  unsigned threads = 1;        ///< the result does not depend on it
   ExecutionContext* context = nullptr;
 };
 

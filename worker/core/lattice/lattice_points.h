@@ -18,7 +18,7 @@ void for_each_point(std::span<const LatticeRun> runs, Visit visit) {
   }
 }
 
-/// Of all.
+/// The same for all sample points of a lattice.
 template <class Visit>
 void for_each_point(const Lattice& lattice, Visit visit) {
   for_each_point(std::span<const LatticeRun>(lattice.axis[2].runs), visit);

@@ -308,8 +308,12 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
     limbs();
     derivatives(threads);
   } else {
-    parallel_halves(
-        threads, [&](unsigned) { limbs(); }, derivatives);
+    parallel_for(std::min(threads, 2U), 2, [&](std::size_t n) {
+      if (n == 0)
+        limbs();
+      else
+        derivatives(std::max(1U, threads - 1));
+    });
   }
   return basis;
 }

@@ -176,8 +176,8 @@ TEST(LimbHubs, AreSeatsWithArms) {
 // The lines of a palm meet at its edge, and what is nearest to their joint is little of it.
 TEST(LimbHubs, GrowFromWhatLiesAboutABody) {
   Cube palm({8, 8, 2});
-  const std::uint32_t joint = palm.add(palm.middle + Vec3{-3, 0, 0}, 2);
-  palm.go_out(joint, {{0.1, 0, 0}, {0.07, 0.07, 0}, {0.07, -0.07, 0}, {-0.1, 0, 0}}, 1.5, 1, 2.5);
+  const std::uint32_t joint = palm.add(palm.middle + Vec3{-1.5, 0, 0}, 2);
+  palm.go_out(joint, {{0.1, 0, 0}, {0.07, 0.07, 0}, {0.07, -0.07, 0}, {-0.1, 0, 0}}, 1.5, 1, 0.6);
   const LimbHubs found = palm.found();
   ASSERT_EQ(found.hubs.size(), 1U);
   EXPECT_LT(norm(found.hubs[0].centre - palm.middle), 1);

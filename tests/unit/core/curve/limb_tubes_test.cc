@@ -82,6 +82,18 @@ TEST(LimbTubes, AHandAtAHipHasNothingOfThat) {
   EXPECT_NEAR(owner.z, -5, 0.5);
 }
 
+// What is nearest to the ridge under a tail's root may lie far along the back, beyond the trunk's tube.
+TEST(LimbTubes, ATailHasNothingOfTheBack) {
+  Tubed lines;
+  const std::uint32_t root = lines.add({0, 0, 0}, 1.1);
+  lines.go(root, {0.1, 0, 0}, 100, 1);
+  lines.go(root, {0, 0, -0.1}, 40, 0.5);
+  const std::uint32_t first = lines.go(root, {-0.07, 0, 0.07}, 1, 0.4);
+  lines.go(first, {-0.07, 0, 0.07}, 40, 0.4);
+  const Vec3 owner = lines.owner({5, 0, 1.02}, first);
+  EXPECT_NEAR(owner.x, 5, 0.1);
+}
+
 // A chest is twice as wide as deep.
 TEST(LimbTubes, AnArmBeginsAtTheSideOfAFlatTrunk) {
   Tubed lines;
