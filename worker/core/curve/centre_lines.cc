@@ -16,7 +16,6 @@
 #include "core/curve/line_ends.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/polylines.h"
-#include "core/solid/solid_membership.h"
 
 namespace affskel::core {
 namespace {
@@ -75,9 +74,7 @@ class CentreLines {
   CentreLines(const CentreLinesInput& input, std::vector<Vec3>& places)
       : input_(input),
         places_(places),
-        sections_(input.surface.sections),
-        distance_(input.surface.distance),
-        membership_(input.surface.membership),
+        surface_(input.surface),
         lines_(polylines(places.size(), input.segments)),
         neighbours_(neighbours(places.size(), input.segments)),
         thickness_(places.size()),
@@ -100,7 +97,7 @@ class CentreLines {
 
  private:
   bool is_joint(std::uint32_t v) const { return neighbours_[v].size() > 2; }
-  bool inside(const Vec3& place) const { return membership_.contains(place); }
+  bool inside(const Vec3& place) const { return surface_.membership.contains(place); }
 
   // Ends stay where they are.
   void make_smooth(int passes, bool joints_stay) {
@@ -127,13 +124,11 @@ class CentreLines {
   void find_balls() {
     home_ = places_;
     parallel_for(input_.threads, home_.size(), [&](std::size_t v) {
-      ball_[v] = distance_.nearest(home_[v]);
-      thickness_[v] = thickness_at(home_[v], ball_[v]);
+      ball_[v] = surface_.distance.nearest(home_[v]);
+      thickness_[v] = surface_.sections.thickness(home_[v], ball_[v]);
     });
     joints_ = joint_balls(places_, lines_, thickness_);
   }
-
-  double thickness_at(const Vec3& at, double ball) const { return sections_.thickness(at, ball); }
 
   // A vertex goes to a place, or as near to it as its ball reaches: what stays in a ball in the solid never leaves the
   // solid.
@@ -189,7 +184,7 @@ class CentreLines {
     shift.ball = thickness_[line[n]];
     const Vec3 across = direction(line, n, kDirection * shift.ball + input_.spacing);
     if (across == Vec3{} || !(shift.ball > 0)) return shift;
-    const LimbSection section = sections_.at(at, across, shift.ball);
+    const LimbSection section = surface_.sections.at(at, across, shift.ball);
     const double away = norm(section.centre - at);
     if (away >= shift.ball && !inside(section.centre)) return shift;
     shift.way = section.centre - at;
@@ -203,7 +198,7 @@ class CentreLines {
     const double size = std::max(section.radius, ball);
     if (ball - away >= kRoundSection * size) return 1;
     if (ball + away <= kFlatSection * size) return 0;
-    const double roundness = distance_.nearest(section.centre) / size;
+    const double roundness = surface_.distance.nearest(section.centre) / size;
     return std::clamp((roundness - kFlatSection) / (kRoundSection - kFlatSection), 0.0, 1.0);
   }
 
@@ -260,7 +255,7 @@ class CentreLines {
   double meet() {
     std::vector<Free> free;
     for (const auto& line : lines_) free.push_back(free_part(line));
-    forks_ = limb_forks(places_, lines_, sections_, input_.spacing);
+    forks_ = limb_forks(places_, lines_, surface_.sections, input_.spacing);
     std::vector<Meeting> meetings(places_.size());
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       if (free[l].first >= free[l].last) continue;
@@ -287,7 +282,7 @@ class CentreLines {
                                        line.begin() + static_cast<std::ptrdiff_t>(free.last));
     if (from_last) std::reverse(inwards.begin(), inwards.end());
     const Vec3& q = places_[inwards[0]];
-    const double ball = thickness_at(q, distance_.nearest(q));
+    const double ball = surface_.thickness(q);
     const double gap = norm(places_[from_last ? line.back() : line.front()] - q);
     const Vec3 t = outward(places_, inwards, 2 * kDirection * ball + input_.spacing, gap);
     if (t == Vec3{}) return;
@@ -324,9 +319,9 @@ class CentreLines {
 
   // From where a joint began, as far as it stays in the middle.
   void go_in_middle(std::uint32_t v, Vec3 way) {
-    const double least = kMiddle * distance_.nearest(start_[v]);
+    const double least = kMiddle * surface_.distance.nearest(start_[v]);
     for (int half = 0; half < kTries; ++half, way = 0.5 * way)
-      if (inside(start_[v] + way) && distance_.nearest(start_[v] + way) >= least)
+      if (inside(start_[v] + way) && surface_.distance.nearest(start_[v] + way) >= least)
         return go(v, start_[v] + way);
     go(v, start_[v]);
   }
@@ -357,11 +352,11 @@ class CentreLines {
   void draw_straight(const std::vector<std::uint32_t>& line, const Free& free) {
     const auto draw = [&](std::size_t from, std::size_t to) {
       const Vec3 a = places_[line[from]], b = places_[line[to]];
-      const double least = kMiddle * std::min(distance_.nearest(a), distance_.nearest(b));
+      const double least = kMiddle * std::min(surface_.distance.nearest(a), surface_.distance.nearest(b));
       std::vector<Vec3> straight;
       for (std::size_t n = from + 1; n < to; ++n) {
         straight.push_back(a + (static_cast<double>(n - from) / static_cast<double>(to - from)) * (b - a));
-        if (distance_.nearest(straight.back()) < least) return;
+        if (surface_.distance.nearest(straight.back()) < least) return;
       }
       for (std::size_t n = from + 1; n < to; ++n) go(line[n], straight[n - from - 1]);
     };
@@ -376,16 +371,14 @@ class CentreLines {
   void find_ends(std::vector<std::uint32_t> line) {
     for (int end = 0; end < 2; ++end, std::reverse(line.begin(), line.end()))
       if (line.size() > 1 && neighbours_[line[0]].size() == 1 && input_.has_tip[line[0]])
-        draw_end({sections_, distance_, membership_, input_.spacing, line, in_joint(line, true),
-                  input_.tip[line[0]]},
+        draw_end({surface_.sections, surface_.distance, surface_.membership, input_.spacing, line,
+                  in_joint(line, true), input_.tip[line[0]]},
                  places_);
   }
 
   const CentreLinesInput& input_;
   std::vector<Vec3>& places_;
-  const LimbSections& sections_;
-  const DistanceToMesh& distance_;
-  const SolidMembership& membership_;
+  const LimbSurface& surface_;
   const std::vector<std::vector<std::uint32_t>> lines_;
   const Adjacency neighbours_;
   std::vector<Vec3> start_;                   // once smooth
