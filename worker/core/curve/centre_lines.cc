@@ -371,9 +371,7 @@ class CentreLines {
   void find_ends(std::vector<std::uint32_t> line) {
     for (int end = 0; end < 2; ++end, std::reverse(line.begin(), line.end()))
       if (line.size() > 1 && neighbours_[line[0]].size() == 1 && input_.has_tip[line[0]])
-        draw_end({surface_.sections, surface_.distance, surface_.membership, input_.spacing, line,
-                  in_joint(line, true), input_.tip[line[0]]},
-                 places_);
+        draw_end({surface_, input_.spacing, line, in_joint(line, true), input_.tip[line[0]]}, places_);
   }
 
   const CentreLinesInput& input_;

@@ -42,11 +42,11 @@ class DrawEnd {
   const Vec3& at(std::size_t n) const { return places_[in_.line[n]]; }
 
   Vec3 outward_at(std::size_t n) const {
-    return outward(places_, in_.line.subspan(n), in_.distance.nearest(at(n)) + in_.spacing, 0);
+    return outward(places_, in_.line.subspan(n), in_.surface.distance.nearest(at(n)) + in_.spacing, 0);
   }
 
   LimbSection section(const Vec3& place, const Vec3& across) const {
-    return in_.sections.at(place, across, in_.distance.nearest(place));
+    return in_.surface.sections.at(place, across, in_.surface.distance.nearest(place));
   }
 
   template <class IsNear>
@@ -88,11 +88,11 @@ class DrawEnd {
     const double known = std::max({0.0, dot(in_.tip - from, along), dot(at(0) - from, along)});
     // The centre of a round end lies no farther beyond it than the surface.
     const double farthest =
-        known + std::min(kEndMoves * in_.spacing, in_.distance.nearest(from + known * along));
+        known + std::min(kEndMoves * in_.spacing, in_.surface.distance.nearest(from + known * along));
     double way = 0;
-    while (way < farthest && in_.solid.contains(from + (way + in_.spacing) * along) &&
-           in_.distance.nearest(from + way * along) -
-                   in_.distance.nearest(from + (way + in_.spacing) * along) <
+    while (way < farthest && in_.surface.membership.contains(from + (way + in_.spacing) * along) &&
+           in_.surface.distance.nearest(from + way * along) -
+                   in_.surface.distance.nearest(from + (way + in_.spacing) * along) <
                kSteep * in_.spacing)
       way += in_.spacing / 4;
     return way + in_.spacing / 2;
@@ -101,12 +101,13 @@ class DrawEnd {
   // How far a limb goes on beyond the centre of its end.
   double to_face(const Vec3& centre, const Vec3& along) const {
     const double step = in_.spacing / 8;
-    const double ball = in_.distance.nearest(centre);
+    const double ball = in_.surface.distance.nearest(centre);
     double reach = 0;
-    while (reach < kFace * ball && in_.solid.contains(centre + (reach + step) * along)) reach += step;
+    while (reach < kFace * ball && in_.surface.membership.contains(centre + (reach + step) * along))
+      reach += step;
     if (!(reach > 0) || reach >= kFace * ball) return 0;
     const auto square = [&](double part) {
-      const double radius = in_.sections.at(centre + part * reach * along, along, ball).radius;
+      const double radius = in_.surface.sections.at(centre + part * reach * along, along, ball).radius;
       return radius * radius;
     };
     const double share = (square(0.25) + square(0.5) + square(0.75)) / (3 * square(0));

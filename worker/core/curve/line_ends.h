@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "core/base/vec3.h"
-#include "core/curve/limb_sections.h"
-#include "core/solid/solid_membership.h"
-#include "core/spatial/distance_to_mesh.h"
+#include "core/curve/limb_surface.h"
 
 namespace affskel::core {
 
@@ -21,9 +19,7 @@ Vec3 direction_in_ball(std::span<const Vec3> places, std::span<const std::uint32
                        double ball);
 
 struct LineEndInput {
-  const LimbSections& sections;
-  const DistanceToMesh& distance;
-  const SolidMembership& solid;
+  const LimbSurface& surface;                ///< of the solid
   double spacing = 0;                        ///< of the lattice
   std::span<const std::uint32_t> line = {};  ///< from the end on
   std::size_t in_joint = 0;                  ///< vertices at its other end

@@ -300,21 +300,13 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
   RidgeBasis basis{DualComplex(lattice)};
   basis.radius = surface_distance(lattice, context);
   if (solid.self_intersecting) basis.thickness = section_radii(field);
-  const auto limbs = [&] { find_limbs(solid, lattice, field, context, basis); };
-  const auto derivatives = [&](unsigned share) {
-    basis.derivatives = smoothed_derivatives(lattice, field, share, context);
-  };
-  if (lattice.points < kBesideEachOther) {
-    limbs();
-    derivatives(threads);
-  } else {
-    parallel_for(std::min(threads, 2U), 2, [&](std::size_t n) {
-      if (n == 0)
-        limbs();
-      else
-        derivatives(std::max(1U, threads - 1));
-    });
-  }
+  const bool at_once = threads > 1 && lattice.points >= kBesideEachOther;
+  parallel_for(at_once ? 2 : 1, 2, [&](std::size_t n) {
+    if (n == 0)
+      find_limbs(solid, lattice, field, context, basis);
+    else
+      basis.derivatives = smoothed_derivatives(lattice, field, at_once ? threads - 1 : threads, context);
+  });
   return basis;
 }
 

@@ -23,10 +23,8 @@ std::vector<Vec3> drawn(const Mesh& mesh, double from, const Vec3& to, double lo
   for (double z = turn; z > low; z -= kSpacing) places.push_back({0, 0, z});
   std::vector<std::uint32_t> line(places.size());
   std::iota(line.begin(), line.end(), 0U);
-  const LimbSections sections(mesh);
-  const DistanceToMesh distance(mesh);
-  const SolidMembership solid(mesh);
-  draw_end({sections, distance, solid, kSpacing, line, 0, to}, places);
+  const LimbSurface surface(mesh);
+  draw_end({surface, kSpacing, line, 0, to}, places);
   return places;
 }
 
