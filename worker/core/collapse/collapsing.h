@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -80,8 +81,7 @@ class Collapsing {
   ///   level(cell) and CellRank, so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
   ///   removed(cell, coface, now, mark of the pair), in a wave in any order; bared(cell, now): the last coface of a
-  ///   cell that stays was removed.  May have wave_ends(), and next_cut(): after a wave a cell without cofaces that is
-  ///   taken out by itself, or nothing.
+  ///   cell that stays was removed.  May have wave_ends(), and what open() asks for.
   template <class Rules>
   void run(Rules& rules) {
     complex_.for_each_cell([&](Cell cell) { offer(cell, 0, rules); });
@@ -92,6 +92,20 @@ class Collapsing {
   template <class Rules>
   void run_from(Cell cell, Rules& rules) {
     offer(cell, static_cast<double>(queue_.current()) * kStep, rules);
+    go_on(rules);
+  }
+
+  /// Before open(): what runs have needed goes, and time begins anew.
+  void rest() { queue_ = {}; }
+
+  /// Takes cells out, each by itself once it has no coface, and goes on from there.
+  /// @param rules  bared() is told of those that have none now; next_cut(), after a wave: one that is taken out, or
+  ///   nothing; opens(cell): the first time at which it may be.
+  template <class Rules>
+  void open(std::span<const Cell> cells, Rules& rules) {
+    for (const Cell cell : cells)
+      if (has(cell) && cofaces(cell) == 0) rules.bared(cell, 0);
+    take_cuts(0, rules);
     go_on(rules);
   }
 
@@ -190,8 +204,9 @@ class Collapsing {
   void take_cuts(double now, Rules& rules) {
     while (const auto cut = rules.next_cut()) {
       if (!has(*cut)) continue;
+      const double when = std::max(now, rules.opens(*cut));
       state(*cut) = 0;
-      complex_.for_each_face(*cut, [&](Cell face) { lose_coface(face, now, rules); });
+      complex_.for_each_face(*cut, [&](Cell face) { lose_coface(face, when, rules); });
     }
   }
 

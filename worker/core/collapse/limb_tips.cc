@@ -42,22 +42,25 @@ constexpr double kFlat = 2.5;
 class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-           double least_reach, std::span<const Cell> cuts)
+           double least_reach)
       : complex_(complex),
         depth_(depth),
         height_(height),
         slight_(1e-3 / *std::max_element(height.begin(), height.end())),
         least_reach_(least_reach),
-        cuts_(cuts.begin(), cuts.end()),
         fronts_(complex, depth) {}
 
-  std::vector<LimbTip> tips() {
-    for (Line& line : lines_) keep_tip(line);
-    std::sort(tips_.begin(), tips_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Of lines that are through, and of those under way as far as they have come.
+  std::vector<LimbTip> tips() const {
+    std::vector<Found> all = tips_;
+    for (const Line& line : lines_) add_tip(line, all);
+    std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.first < b.first; });
     std::vector<LimbTip> result;
-    for (const auto& [begun, tip] : tips_) result.push_back(tip);
+    for (const auto& [begun, tip] : all) result.push_back(tip);
     return result;
   }
+
+  void look_for(std::span<const Cell> cuts) { cuts_.insert(cuts.begin(), cuts.end()); }
 
   // Marks where the front has passed already.
   Collapsing::Due due(Cell cell, Cell coface, double now) {
@@ -65,6 +68,8 @@ class Thinning {
       return {std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]))};
     if (DualComplex::dimension(coface) == 2) fronts_.stands_at(cell);
     const bool passed = fronts_.is_passed(cell, coface);
+    // After the cuts time has begun anew: what has come to a vertex before has done so later.
+    if (DualComplex::dimension(coface) == 1 && !cuts_.empty()) now = std::max(now, came_to(cell));
     return {now + (passed ? 0 : 1), passed};
   }
 
@@ -80,6 +85,12 @@ class Thinning {
   }
 
   void wave_ends() { fronts_.end_wave(); }
+
+  // When a cell was bared, or hardly later.
+  double opens(Cell cell) {
+    return DualComplex::dimension(cell) == 1 ? static_cast<double>(fronts_.reached(cell))
+                                             : radius_about(complex_, depth_, cell);
+  }
 
   std::optional<Cell> next_cut() {
     if (bared_cuts_.empty()) return std::nullopt;
@@ -111,6 +122,12 @@ class Thinning {
   }
 
  private:
+  double came_to(Cell vertex) {
+    const std::uint32_t number = line_at_[vertex];
+    const float line = number == DualComplex::kNone ? 0 : lines_[number].time;
+    return static_cast<double>(std::max(line, bared_at_[vertex]));
+  }
+
   // When a square has gone with one of its edges.
   void bare_ends(Cell edge, float when) {
     complex_.for_each_face(edge, [&](Cell vertex) { bared_at_[vertex] = std::max(bared_at_[vertex], when); });
@@ -205,15 +222,16 @@ class Thinning {
   }
 
   void finish(std::uint32_t number) {
-    keep_tip(lines_[number]);
+    add_tip(lines_[number], tips_);
     lines_[number].tip.reach = 0;
     free_.push_back(number);
   }
 
-  void keep_tip(Line& line) {
+  using Found = std::pair<std::uint32_t, LimbTip>;  // by which line
+
+  void add_tip(const Line& line, std::vector<Found>& tips) const {
     if (line.tip.reach < least_reach_) return;
-    line.tip.vertex = tip_of(line);
-    tips_.emplace_back(line.order, line.tip);
+    tips.emplace_back(line.order, line.tip).second.vertex = tip_of(line);
   }
 
   // Of a flat end, whose corners lie far from its middle, the tip is in the middle.
@@ -298,18 +316,25 @@ class Thinning {
   std::deque<Line> lines_;  // under way, and places that are free
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
-  std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line
-  CellValues<float> bared_at_{complex_, 0, 0};           // when squares and edges at a vertex went
+  std::vector<Found> tips_;
+  CellValues<float> bared_at_{complex_, 0, 0};  // when squares and edges at a vertex went
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };
 
 }  // namespace
 
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-                   double least_reach, ExecutionContext* context, std::span<const Cell> cuts) {
-  Thinning thinning(complex, depth, height, least_reach, cuts);
+                   double least_reach, ExecutionContext* context, const LimbOpenings& openings) {
+  Thinning thinning(complex, depth, height, least_reach);
   Collapsing collapsing(complex, context);
   collapsing.run(thinning);
+  LimbTips whole{thinning.tips(), collapsing.cells()};
+  if (!openings) return whole;
+  collapsing.rest();
+  const std::vector<Cell> cuts = openings(whole);
+  if (cuts.empty()) return whole;
+  thinning.look_for(cuts);
+  collapsing.open(cuts, thinning);
   return {thinning.tips(), collapsing.cells()};
 }
 

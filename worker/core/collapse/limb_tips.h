@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct LimbTips {
   CellSet left;  ///< loops, closed surfaces, lines between them: what has no end to be eaten from
 };
 
+/// Squares and edges of what thinning leaves that are to be taken out.
+using LimbOpenings = std::function<std::vector<DualComplex::Cell>(const LimbTips& whole)>;
+
 /// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and
 /// Ju 2010).  The complex is collapsed from the surface inwards at unit speed.  A lone edge, one whose last
 /// square has gone, is born then; lone edges are eaten from the ends of their line, and live until then.
@@ -37,11 +41,12 @@ struct LimbTips {
 /// @param depth per cube: its distance to the surface, spacings; many are alike.
 /// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,
 ///   so that the lattice's order does not decide.
-/// @param cuts squares and edges of what is left that are taken out as soon as they have no coface: a limb with a loop
-///   has no tip.
+/// @param openings asked once, unless it is empty, for cells that are taken out as soon as they have no coface; thinning
+///   goes on from there, as it would have gone when they were bared, and what it tells then is the result.  A limb with a
+///   loop has no tip.
 /// @throws CoreError kCancelled when the context asks to stop.
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
                    double least_reach, ExecutionContext* context = nullptr,
-                   std::span<const DualComplex::Cell> cuts = {});
+                   const LimbOpenings& openings = {});
 
 }  // namespace affskel::core

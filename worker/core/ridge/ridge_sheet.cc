@@ -278,16 +278,23 @@ class SheetMaker {
 void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field,
                 ExecutionContext* context, RidgeBasis& basis) {
   basis.topology = betti_numbers(basis.complex, context);
-  const auto tips = [&](std::span<const DualComplex::Cell> cuts) {
-    return limb_tips(basis.complex, basis.radius, field.erosion, RidgeConstants::limb_reach, context, cuts);
+  const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
+  std::optional<LimbTips> whole;  // where what is opened stays in the skeleton
+  const auto openings = [&](const LimbTips& found) -> std::vector<DualComplex::Cell> {
+    if (noisy) return bored_cells(*noisy, found.left, {}, context).cells;
+    if (basis.topology.holes == 0) return {};
+    CellSet left = found.left;
+    std::vector<DualComplex::Cell> cut =
+        fill_tunnels(solid, lattice, basis.complex, {}, basis.radius, left, context).edges;
+    if (!cut.empty()) whole = found;
+    return cut;
   };
-  LimbTips limbs = tips({});
-  if (const auto noisy = noisy_solid(solid, lattice, basis))
-    limbs = tips(bored_cells(*noisy, limbs.left, {}, context).cells);
-  else if (CellSet left = limbs.left; basis.topology.holes > 0)
-    if (const auto cut = fill_tunnels(solid, lattice, basis.complex, {}, basis.radius, left, context).edges;
-        !cut.empty())
-      basis.opened_limbs = tips(cut).tips;
+  LimbTips limbs =
+      limb_tips(basis.complex, basis.radius, field.erosion, RidgeConstants::limb_reach, context, openings);
+  if (whole) {
+    basis.opened_limbs = std::move(limbs.tips);
+    limbs = std::move(*whole);
+  }
   basis.limbs = std::move(limbs.tips);
   basis.core = core_of(basis.complex, limbs.left);
   basis.loops = loops_of(lattice, basis.complex, limbs.left, context);

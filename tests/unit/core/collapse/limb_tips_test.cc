@@ -130,7 +130,8 @@ TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
     if (DualComplex::dimension(cell) == 1) loop.push_back(cell);
   });
   ASSERT_GT(loop.size(), 20U);
-  const LimbTips cut = limb_tips(complex, depth, height, 1, nullptr, {&loop[loop.size() / 2], 1});
+  const LimbTips cut = limb_tips(complex, depth, height, 1, nullptr,
+                                 [&](const LimbTips&) { return std::vector{loop[loop.size() / 2]}; });
   EXPECT_GE(cut.tips.size(), 2U);
   bool empty = true;
   cut.left.for_each([&](DualComplex::Cell cell) { empty = empty && DualComplex::dimension(cell) == 0; });
