@@ -29,9 +29,11 @@ struct CutBoxes {
   Box round;
   const Vec3& place;
   const Vec3& across;
+  bool is_flat;  // round: it lies in the plane
 
   bool meets(const Box& box) const {
     if (!round.meets(box)) return false;
+    if (is_flat) return true;
     const Vec3 sides = box.sides();
     const double height = dot(across, box.middle() - place);  // of the box's middle above the plane
     const double half =
@@ -53,7 +55,9 @@ LimbSections::LimbSections(const Mesh& surface, unsigned threads)
 // Visits what a plane cuts of triangles, from edge to edge, relative to the place: the inside is on the left.
 template <class Visit>
 void LimbSections::cut(const Box& round, const Vec3& place, const Vec3& across, const Visit& visit) const {
-  tree_.visit(CutBoxes{round, place, across}, [&](std::uint32_t t) {
+  const Vec3 sides = round.sides();
+  const bool is_flat = sides.x == 0 || sides.y == 0 || sides.z == 0;
+  tree_.visit(CutBoxes{round, place, across, is_flat}, [&](std::uint32_t t) {
     const Triangle& triangle = surface_.triangles[t];
     std::array<Vec3, 3> corner;
     std::array<double, 3> height;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/lattice/lattice_points.h"
 
 namespace affskel::core {
@@ -82,21 +83,21 @@ Asked find_asked(const Lattice& lattice, const RowBand& wide, std::span<const st
 class Continuation {
  public:
   Continuation(const Lattice& lattice, Asked asked, const std::function<double(std::uint32_t)>& value,
-               const std::function<Vec3(std::uint32_t)>& gradient)
+               const std::function<Vec3(std::uint32_t)>& gradient, unsigned threads)
       : band_(std::move(asked.band)),
-        value_(value),
-        gradient_(gradient),
+        threads_(threads),
         nearest_(band_.places(), kUnknown),
-        result_(band_.places(), 0.0F),
-        surface_(std::move(asked.surface)) {
+        result_(band_.places(), 0.0F) {
     for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
       const std::size_t at = number(band_, {i, j, k});
       nearest_[at] = kDeep;
       result_[at] = static_cast<float>(value(rank));
     });
-    for (std::uint32_t n = 0; n < surface_.size(); ++n) {
-      front_.push_back(surface_[n].place);
-      nearest_[number(band_, surface_[n].place)] = n;
+    surface_.reserve(asked.surface.size());
+    for (const auto& [place, rank] : asked.surface) {
+      nearest_[number(band_, place)] = static_cast<std::uint32_t>(surface_.size());
+      surface_.push_back({place, value(rank), gradient(rank)});
+      front_.push_back(place);
     }
   }
 
@@ -118,7 +119,9 @@ class Continuation {
       });
     }
     std::vector<std::uint32_t> found(next.size());
-    for (std::size_t n = 0; n < next.size(); ++n) found[n] = continue_to(next[n]);
+    parallel_ranges(threads_, next.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) found[n] = continue_to(next[n]);
+    });
     for (std::size_t n = 0; n < next.size(); ++n) nearest_[number(band_, next[n])] = found[n];
     front_ = std::move(next);
   }
@@ -146,11 +149,10 @@ class Continuation {
   }
 
   double continued(std::uint32_t point, const Place& to) const {
-    const auto& [from, rank] = surface_[point];
+    const auto& [from, value, gradient] = surface_[point];
     const Vec3 way{static_cast<double>(to.i - from.i), static_cast<double>(to.j - from.j),
                    static_cast<double>(to.k - from.k)};
-    const double value = value_(rank);
-    return std::clamp(value + dot(gradient_(rank), way), 0.0, value);
+    return std::clamp(value + dot(gradient, way), 0.0, value);
   }
 
   static std::int32_t squared_distance(const Place& a, const Place& b) {
@@ -160,12 +162,17 @@ class Continuation {
 
   static constexpr std::uint32_t kPending = kUnknown - 1, kDeep = kUnknown - 2;
 
+  struct Known {
+    Place place;
+    double value = 0;
+    Vec3 gradient;
+  };
+
   RowBand band_;
-  const std::function<double(std::uint32_t)>& value_;
-  const std::function<Vec3(std::uint32_t)>& gradient_;
+  unsigned threads_;
   std::vector<std::uint32_t> nearest_;  // per place: of the surface, or of what is no place for it
   std::vector<float> result_;
-  std::vector<SurfacePoint> surface_;
+  std::vector<Known> surface_;
   std::vector<Place> front_;
 };
 
@@ -173,9 +180,9 @@ class Continuation {
 
 ContinuedField continued_field(const Lattice& lattice, const std::function<double(std::uint32_t)>& value,
                                const std::function<Vec3(std::uint32_t)>& gradient,
-                               std::span<const std::uint8_t> reach) {
+                               std::span<const std::uint8_t> reach, unsigned threads) {
   const RowBand wide(lattice, std::max(1, std::int32_t{*std::max_element(reach.begin(), reach.end())}));
-  return Continuation(lattice, find_asked(lattice, wide, reach), value, gradient).run();
+  return Continuation(lattice, find_asked(lattice, wide, reach), value, gradient, threads).run();
 }
 
 }  // namespace affskel::core

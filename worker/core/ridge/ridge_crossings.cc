@@ -1,8 +1,11 @@
 #include "core/ridge/ridge_crossings.h"
 
 #include <array>
+#include <cstddef>
+#include <vector>
 
 #include "core/base/matrix3.h"
+#include "core/base/parallel.h"
 #include "core/base/unit.h"
 
 namespace affskel::core {
@@ -21,9 +24,22 @@ RidgeCrossing crossing_at(const Lattice& lattice, const RidgeValues& values, con
   return crossing;
 }
 
+// Leaves those that count.
+void select(const RidgeValues& values, unsigned threads, std::deque<RidgeCrossing>& crossings) {
+  std::vector<char> counts(crossings.size());
+  parallel_ranges(threads, crossings.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) counts[n] = values.counts(crossings[n].at);
+  });
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < counts.size(); ++n)
+    if (counts[n]) crossings[kept++] = crossings[n];
+  crossings.resize(kept);
+}
+
 }  // namespace
 
-std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values) {
+std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values,
+                                          unsigned threads) {
   std::deque<RidgeCrossing> result;  // while a vector grows it takes three times its memory
   for_each_edge(lattice, [&](std::uint32_t x, std::uint32_t y, std::uint8_t axis, const auto& place) {
     const PointRidge &at_x = values.ridge(x), &at_y = values.ridge(y);
@@ -37,8 +53,9 @@ std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeVal
     const double t = slope_x / (slope_x - slope_y);
     const RidgeCrossing crossing =
         crossing_at(lattice, values, {x, axis, place}, y, t, (1 - t) * e_x + (t * turn) * e_y);
-    if (values.counts(crossing.at)) result.push_back(crossing);
+    if (values.is_strong(crossing.at)) result.push_back(crossing);
   });
+  select(values, threads, result);
   return result;
 }
 

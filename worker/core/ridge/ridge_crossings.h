@@ -25,7 +25,9 @@ struct RidgeCrossing {
 /// The strength s = -lambda E / |grad E|^2, lambda the eigenvalue for E along e_1, is the angle by which the
 /// normals of the level surfaces turn over one depth d = E / |grad E|, if they went on as they do there.
 /// @param values of the lattice; their bounds hold for the crossings.
+/// @param threads >= 1; the result does not depend on it.
 /// @return by axis, then as for_each_edge visits them.
-std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values);
+std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeValues& values,
+                                          unsigned threads = 1);
 
 }  // namespace affskel::core

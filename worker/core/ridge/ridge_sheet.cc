@@ -199,7 +199,7 @@ class SheetMaker {
                                walls_.clean ? &walls_.clean->distance : nullptr,
                                RidgeConstants::weak_share * options_.bounds.low);
       throw_if_stopped(options_.context);
-      crossings = ridge_crossings(lattice_, values);
+      crossings = ridge_crossings(lattice_, values, options_.threads);
       throw_if_stopped(options_.context);
       curves_ = ridge_curves(lattice_, values, options_.context);
     }

@@ -56,8 +56,10 @@ class RidgeValues {
   /// What a strength is that of.
   enum class Of { kSurface, kCurve };
 
+  bool is_strong(const SheetVertex& vertex) const { return vertex.strength >= min_strength_; }
+
   /// Whether a vertex is strong enough, and far enough from the surface.
-  bool counts(const SheetVertex& vertex) const { return vertex.strength >= min_strength_ && is_deep(vertex); }
+  bool counts(const SheetVertex& vertex) const { return is_strong(vertex) && is_deep(vertex); }
 
   /// The vertex at `position` that has the weighted mean of the points' values.
   /// @param points the heaviest one, of equal ones the first, becomes the vertex's sample point.

@@ -261,7 +261,7 @@ std::vector<PointDerivatives> smoothed_derivatives(const Lattice& lattice, const
   const ScaledField scaled(field);
   const ContinuedField continued = continued_field(
       lattice, [&](std::uint32_t p) { return scaled.value(p); },
-      [&](std::uint32_t p) { return scaled.gradient(p); }, reaches(depth, ladder, widths));
+      [&](std::uint32_t p) { return scaled.gradient(p); }, reaches(depth, ladder, widths), threads);
   std::vector<PointDerivatives> result(depth.size());  // not before: eleven numbers a point
   for (std::uint32_t p = 0; p < result.size(); ++p) {
     result[p].depth = depth[p];
