@@ -36,21 +36,20 @@ class CellValues {
   std::unordered_map<DualComplex::Cell, Value> others_;
 };
 
-/// A byte for each cell, by its own name, first 0.  A cube with neighbours at the lower ends of all axes has no more for
-/// its own than the cells at its upper ends: most groups of cubes have room for these alone.
+/// A byte for each cell, by its own name, first 0.  Cells at no lower end of a cube, which are its own, come first; few
+/// groups of cubes own others, and have room for these behind them.
 class CellBytes {
  public:
   explicit CellBytes(const DualComplex& complex) {
-    std::size_t rows = 0;
+    std::size_t end = kUpper * std::size_t{complex.cubes()};
     for (std::uint32_t first = 0; first < complex.cubes(); first += kGroup) {
       std::uint32_t own = 0;
       for (std::uint32_t cube = first; cube < std::min(first + kGroup, complex.cubes()); ++cube)
         own |= complex.own_places(cube);
-      const bool inner = (own & ~DualComplex::kUpperPlaces) == 0;
-      groups_.push_back(2 * rows + inner);
-      rows += inner ? kUpper : 27;
+      others_.push_back(end);
+      if ((own & ~DualComplex::kUpperPlaces) != 0) end += kGroup * kOther;
     }
-    bytes_.assign(kGroup * rows, 0);
+    bytes_.assign(end, 0);
   }
 
   std::uint8_t& operator[](DualComplex::Cell cell) { return bytes_[index(cell)]; }
@@ -59,6 +58,7 @@ class CellBytes {
  private:
   static constexpr std::uint32_t kGroup = 4;  // cubes
   static constexpr std::uint32_t kUpper = 8;  // places of a cube that are at no lower end
+  static constexpr std::uint32_t kOther = 27 - kUpper;
 
   // Of each place: those at no lower end first.
   static constexpr std::array<std::uint8_t, 27> kSlot = [] {
@@ -70,14 +70,12 @@ class CellBytes {
   }();
 
   std::size_t index(DualComplex::Cell cell) const {
-    const std::uint32_t cube = DualComplex::cube_of(cell);
-    const std::uint64_t group = groups_[cube / kGroup];
-    const std::uint32_t places = (group & 1) != 0 ? kUpper : 27;
-    return kGroup * (group >> 1) + places * (cube % kGroup) + kSlot[DualComplex::place_of(cell)];
+    const std::uint32_t cube = DualComplex::cube_of(cell), slot = kSlot[DualComplex::place_of(cell)];
+    if (slot < kUpper) return kUpper * std::size_t{cube} + slot;
+    return others_[cube / kGroup] + kOther * (cube % kGroup) + (slot - kUpper);
   }
 
-  std::vector<std::uint64_t>
-      groups_;  // twice the places of a cube in each before, and whether this has the upper alone
+  std::vector<std::size_t> others_;  // where those of a group begin
   std::vector<std::uint8_t> bytes_;
 };
 

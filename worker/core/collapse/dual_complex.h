@@ -66,7 +66,7 @@ class DualComplex {
 
   /// The own name of the cell at a place of a cube.
   Cell cell(std::uint32_t cube, std::uint32_t place) const {
-    if (is_own(cube, place)) return name(cube, place);
+    if (kLower[place] == 0) return name(cube, place);
     std::uint32_t lowest = cube, raised = place;
     for (std::uint32_t left = kLower[place]; left != 0; left &= left - 1) {
       const auto axis = static_cast<std::size_t>(std::countr_zero(left));
@@ -75,7 +75,7 @@ class DualComplex {
       lowest = next;
       raised += 2 * kWeight[axis];
     }
-    return is_own(lowest, raised) ? name(lowest, raised) : own_name(cube, place);
+    return kLower[raised] == 0 || is_own(lowest, raised) ? name(lowest, raised) : own_name(cube, place);
   }
 
   /// The places (a set) of a cube that name a cell by its own name.
