@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "base/number_text.h"
 #include "base/ridge_threshold.h"
+#include "core/base/parallel.h"
 #include "core/quality/skeleton_advice.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/shocks/shock_operator.h"
@@ -16,6 +19,12 @@ namespace {
 
 double threshold_of(double given) {
   return given == 0 ? base::kMinCurveThreshold : given;
+}
+
+// That of the lines that a report compares a curve to, where there are any.
+std::optional<double> compared_to(double threshold) {
+  const double next = core::next_threshold(threshold_of(threshold));
+  return next <= base::kMaxCurveThreshold ? std::optional(next) : std::nullopt;
 }
 
 // Why a curve has none.
@@ -38,7 +47,8 @@ core::CurveOptions CurveOfField::options_at(double threshold) const {
 }
 
 core::SheetMesh CurveOfField::lines_at(double threshold) const {
-  return core::curve_lines(input(), options_at(threshold));
+  const auto known = lines_.find(threshold);
+  return known != lines_.end() ? known->second : core::curve_lines(input(), options_at(threshold));
 }
 
 core::CurveInput CurveOfField::input() const {
@@ -57,16 +67,35 @@ const core::CurveSkeleton& CurveOfField::at(double threshold) const {
   return curves.emplace(options.least_reach, core::curve_skeleton(input(), options)).first->second;
 }
 
+const core::CurveSkeleton& CurveOfField::for_report(double threshold) const {
+  const auto next = compared_to(threshold);
+  core::CurveOptions options = options_at(threshold);
+  auto& curves = field_.known().curves;
+  if (options.threads == 1 || !next || curves.contains(options.least_reach)) return at(threshold);
+  options.threads /= 2;
+  core::CurveOptions later = options;
+  later.least_reach = *next;
+  const core::CurveInput in = input();
+  core::CurveSkeleton curve;
+  core::SheetMesh& lines = lines_[*next];
+  core::parallel_for(2, 2, [&](std::size_t n) {
+    if (n == 0)
+      curve = core::curve_skeleton(in, options);
+    else
+      lines = core::curve_lines(in, later);
+  });
+  return curves.emplace(options.least_reach, std::move(curve)).first->second;
+}
+
 v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold) const {
   core::SheetQualityOptions options;
   options.segments = curve.segments;
-  const double next = core::next_threshold(threshold_of(threshold));
   core::Mesh other;
-  if (next <= base::kMaxCurveThreshold) {
+  if (const auto next = compared_to(threshold)) {
     other =
-        core::mesh_of(next <= curve.same_to ? static_cast<const core::SheetMesh&>(curve) : lines_at(next));
+        core::mesh_of(*next <= curve.same_to ? static_cast<const core::SheetMesh&>(curve) : lines_at(*next));
     options.other = &other;
-    options.other_threshold = next;
+    options.other_threshold = *next;
   }
   field_.throw_if_stopped();
   v1::SkeletonQuality message =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,10 @@ class CurveOfField {
   /// @param threshold as in SkeletonParams: 0 for the default.
   const core::CurveSkeleton& at(double threshold) const;
 
+  /// The same where its report is asked for next: on several threads the lines that it is compared to are found at the same
+  /// time.
+  const core::CurveSkeleton& for_report(double threshold) const;
+
   v1::SkeletonQuality quality_of(const core::CurveSkeleton& curve, double threshold) const;
 
   /// As SURFACE gives it, with quality and parts.
@@ -40,6 +45,7 @@ class CurveOfField {
   const RidgeOfField& ridge_;
   const core::RidgeSheet& sheet_;                             // at its default threshold
   mutable std::unique_ptr<const core::LimbSurface> surface_;  // once asked for
+  mutable std::map<double, core::SheetMesh> lines_;           // by threshold
 };
 
 /// Per sample point: the part of the solid that it lies in, from 1.

@@ -41,7 +41,7 @@ class Parts {
         ridge_(field),
         sheet_(ridge_.sheet(0)),
         curves_(field, ridge_),
-        curve_(curves_.at(threshold)),
+        curve_(curves_.for_report(threshold)),
         graph_(curves_.graph_of(curve_)),
         points_(parts_of_points(curve_, graph_)),
         surface_(core::parted_surface(solid_, field.lattice(), points_, field.context())) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/collapse/lattice_solids.h"
+#include "core/curve/tubes.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/lattice_points.h"
 #include "core/ridge/local_depth.h"
@@ -136,6 +137,52 @@ TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
   bool empty = true;
   cut.left.for_each([&](DualComplex::Cell cell) { empty = empty && DualComplex::dimension(cell) == 0; });
   EXPECT_TRUE(empty);
+}
+
+// A fork whose prongs a thread joins, but for a gap in its middle.
+Mesh fork(double gap) {
+  std::vector<Tube> tubes{{{0, 0, -10}, {0, 0, 0}, 1}};
+  for (const double side : {-1.0, 1.0}) {
+    tubes.push_back({{0, 0, 0}, {4 * side, 0, 8}, 0.8});
+    tubes.push_back({{4 * side, 0, 8}, {0.5 * gap * side, 0, 8}, 0.45});
+  }
+  return tube_mesh(tubes, 0.2);
+}
+
+// Opened there, it has the tips of one that is open.
+TEST(LimbTips, OfWhatIsOpenedAreThoseOfWhatIsOpen) {
+  std::array<std::vector<LimbTip>, 2> tips;
+  for (const bool is_opened : {false, true}) {
+    const LatticeSolid solid(fork(is_opened ? 0 : 1.1), 0.21);
+    const DualComplex complex(solid.lattice);
+    const std::vector<float> depth = surface_distance(solid.lattice);
+    const std::vector<double> height(depth.begin(), depth.end());
+    const SamplePlaces places(solid.solid, solid.lattice);
+    const auto from_middle = [&](DualComplex::Cell cell) {
+      const auto at = lattice_places(solid.lattice, std::vector{DualComplex::cube_of(cell)})[0];
+      return norm(places.at(at[0], at[1], at[2]) - Vec3{0, 0, 8});
+    };
+    const auto in_middle = [&](const LimbTips& whole) {
+      EXPECT_EQ(whole.tips.size(), 1U);
+      std::vector<DualComplex::Cell> edges;
+      whole.left.for_each([&](DualComplex::Cell cell) {
+        if (DualComplex::dimension(cell) == 1) edges.push_back(cell);
+      });
+      return std::vector{*std::ranges::min_element(edges, {}, from_middle)};
+    };
+    const LimbTips found =
+        limb_tips(complex, depth, height, 0.9, nullptr, is_opened ? LimbOpenings(in_middle) : LimbOpenings());
+    tips[is_opened] = found.tips;
+    ASSERT_EQ(found.tips.size(), 3U);
+    EXPECT_EQ(
+        std::ranges::count_if(found.tips, [&](const LimbTip& tip) { return from_middle(tip.vertex) < 1.2; }),
+        2);
+  }
+  for (auto& found : tips) std::ranges::sort(found, {}, &LimbTip::reach);
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_NEAR(tips[1][n].reach / tips[0][n].reach, 1, 0.15) << n;
+    EXPECT_NEAR(tips[1][n].length / tips[0][n].length, 1, 0.15) << n;
+  }
 }
 
 // The lines from the corners of an end come together at once: none of them is the end.
