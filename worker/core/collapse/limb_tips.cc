@@ -68,8 +68,9 @@ class Thinning {
       return {std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]))};
     if (DualComplex::dimension(coface) == 2) fronts_.stands_at(cell);
     const bool passed = fronts_.is_passed(cell, coface);
-    // After the cuts time has begun anew: what has come to a vertex before has done so later.
-    if (DualComplex::dimension(coface) == 1 && !cuts_.empty()) now = std::max(now, came_to(cell));
+    // After the cuts time has begun anew: what has come before to a vertex, or left its edge, has done so later.
+    if (DualComplex::dimension(coface) == 1 && !cuts_.empty())
+      now = std::max({now, came_to(cell), static_cast<double>(fronts_.reached(coface))});
     return {now + (passed ? 0 : 1), passed};
   }
 

@@ -45,7 +45,7 @@ TEST(RidgeMemory, IsBounded) {
   const std::string field = finished_field(prepared);
   v1::Lease lease = lease_of(v1::TASK_KIND_SURFACE);
   lease.mutable_surface()->mutable_skeleton()->set_operator_(v1::OPERATOR_RIDGE);
-  for (const unsigned threads : {1U, 2U, 4U}) {
+  for (const unsigned threads : {1U, 4U}) {
     expect_at_most(kRidgeBytes, prepared, [&] {
       const Derived derived = derive(lease, prepared, field, nullptr, threads);
       EXPECT_GT(parsed<v1::TriangleMesh>(derived).xyz_size(), 300);

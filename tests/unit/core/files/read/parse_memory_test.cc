@@ -42,11 +42,11 @@ TEST(ParseMemoryDeathTest, OfGltfIsBounded) {
 
 // Of a large ball, whose surface has more triangles than most of its size.
 TEST(ParseMemoryDeathTest, OfImagesIsBounded) {
-  constexpr int kSide = 160;
+  constexpr int kSide = 128;
   std::string bytes, words;
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const double x = i % kSide - 79.5, y = i / kSide % kSide - 79.5, z = i / kSide / kSide - 79.5;
-    bytes += static_cast<char>(std::sqrt(x * x + y * y + z * z) < 75 ? 100 : 0);
+    const double x = i % kSide - 63.5, y = i / kSide % kSide - 63.5, z = i / kSide / kSide - 63.5;
+    bytes += static_cast<char>(std::sqrt(x * x + y * y + z * z) < 60 ? 100 : 0);
     words += bytes.back() != 0 ? "100 " : "0 ";
   }
   const std::string sizes = std::to_string(kSide) + " ";
