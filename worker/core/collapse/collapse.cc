@@ -39,7 +39,6 @@ class Order {
         complex_, cell, [&](std::uint32_t cube) { return static_cast<double>(way_[cube]); });
   }
   void removed(Cell, Cell, double, bool) {}
-  void bared(Cell, double) {}
 
  private:
   const DualComplex& complex_;
@@ -66,7 +65,6 @@ struct AnyOrder {
   static Collapsing::Due due(Cell, Cell, double) { return {}; }
   static double level(Cell) { return 0; }
   static void removed(Cell, Cell, double, bool) {}
-  static void bared(Cell, double) {}
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -80,8 +79,9 @@ class Collapsing {
   ///   those of one time in waves, each what the one before has freed, and of cells with one coface the first by
   ///   level(cell) and CellRank, so that with levels that know no order of axes a mirror image is collapsed to the
   ///   mirror image;
-  ///   removed(cell, coface, now, mark of the pair), in a wave in any order; bared(cell, now): the last coface of a
-  ///   cell that stays was removed.  May have wave_ends(), and what open() asks for.
+  ///   removed(cell, coface, now, mark of the pair), in a wave in any order.  May have wave_ends(), stays(cell): whether
+  ///   it is not removed with a coface, lost_coface(cell, how many are left, now), and next_cut(): after a wave a cell
+  ///   without cofaces that is taken out by itself, or nothing.
   template <class Rules>
   void run(Rules& rules) {
     complex_.for_each_cell([&](Cell cell) { offer(cell, 0, rules); });
@@ -92,20 +92,6 @@ class Collapsing {
   template <class Rules>
   void run_from(Cell cell, Rules& rules) {
     offer(cell, static_cast<double>(queue_.current()) * kStep, rules);
-    go_on(rules);
-  }
-
-  /// Before open(): what runs have needed goes, and time begins anew.
-  void rest() { queue_ = {}; }
-
-  /// Takes cells out, each by itself once it has no coface, and goes on from there.
-  /// @param rules  bared() is told of those that have none now; next_cut(), after a wave: one that is taken out, or
-  ///   nothing; opens(cell): the first time at which it may be.
-  template <class Rules>
-  void open(std::span<const Cell> cells, Rules& rules) {
-    for (const Cell cell : cells)
-      if (has(cell) && cofaces(cell) == 0) rules.bared(cell, 0);
-    take_cuts(0, rules);
     go_on(rules);
   }
 
@@ -131,6 +117,8 @@ class Collapsing {
   template <class Rules>
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
+    if constexpr (requires { rules.stays(cell); })
+      if (rules.stays(cell)) return;
     Cell coface = cell;  // not fixed, else the cell would be
     std::uint32_t n = 0;
     complex_.any_coface(cell, [&](Cell other) {
@@ -204,15 +192,16 @@ class Collapsing {
   void take_cuts(double now, Rules& rules) {
     while (const auto cut = rules.next_cut()) {
       if (!has(*cut)) continue;
-      const double when = std::max(now, rules.opens(*cut));
       state(*cut) = 0;
-      complex_.for_each_face(*cut, [&](Cell face) { lose_coface(face, when, rules); });
+      complex_.for_each_face(*cut, [&](Cell face) { lose_coface(face, now, rules); });
     }
   }
 
   template <class Rules>
   void lose_coface(Cell cell, double now, Rules& rules) {
-    if (((--state(cell)) & ~kFixed) == kThere) rules.bared(cell, now);
+    --state(cell);
+    if constexpr (requires { rules.lost_coface(cell, 0U, now); })
+      if (has(cell)) rules.lost_coface(cell, cofaces(cell), now);
     offer(cell, now, rules);
   }
 

@@ -39,39 +39,46 @@ constexpr double kSameEnd = 0.5;
 // A corner of a flat end lies so many times as far from its middle as from the surface.
 constexpr double kFlat = 2.5;
 
+// When what has gone of a solid has gone, but for its lines.
+struct Gone {
+  SheetFronts fronts;
+  CellValues<float> freed;  // per vertex: when it lost the last edge, in times of the collapse
+};
+
+// In two stages: cubes and squares, and lone edges, which go with the vertices at the ends of lines.  The second changes
+// nothing of the first.
 class Thinning {
  public:
   Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-           double least_reach)
+           double least_reach, Gone& gone)
       : complex_(complex),
         depth_(depth),
         height_(height),
         slight_(1e-3 / *std::max_element(height.begin(), height.end())),
         least_reach_(least_reach),
-        fronts_(complex, depth) {}
+        gone_(gone) {}
 
-  // Of lines that are through, and of those under way as far as they have come.
-  std::vector<LimbTip> tips() const {
-    std::vector<Found> all = tips_;
-    for (const Line& line : lines_) add_tip(line, all);
-    std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.first < b.first; });
-    std::vector<LimbTip> result;
-    for (const auto& [begun, tip] : all) result.push_back(tip);
-    return result;
+  // @param cuts which are taken out once they have no coface.
+  void begin_lines(std::span<const Cell> cuts) {
+    are_lines_ = true;
+    cuts_.insert(cuts.begin(), cuts.end());
   }
 
-  void look_for(std::span<const Cell> cuts) { cuts_.insert(cuts.begin(), cuts.end()); }
+  std::vector<LimbTip> tips() {
+    for (Line& line : lines_) keep_tip(line);
+    std::sort(tips_.begin(), tips_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<LimbTip> result;
+    for (const auto& [begun, tip] : tips_) result.push_back(tip);
+    return result;
+  }
 
   // Marks where the front has passed already.
   Collapsing::Due due(Cell cell, Cell coface, double now) {
     if (DualComplex::dimension(coface) == 3)
       return {std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]))};
-    if (DualComplex::dimension(coface) == 2) fronts_.stands_at(cell);
-    const bool passed = fronts_.is_passed(cell, coface);
-    // After the cuts time has begun anew: what has come before to a vertex, or left its edge, has done so later.
-    if (DualComplex::dimension(coface) == 1 && !cuts_.empty())
-      now = std::max({now, came_to(cell), static_cast<double>(fronts_.reached(coface))});
-    return {now + (passed ? 0 : 1), passed};
+    if (DualComplex::dimension(coface) == 2) gone_.fronts.stands_at(cell);
+    const bool passed = gone_.fronts.is_passed(cell, coface);
+    return {std::max(now, came_to(cell)) + (passed ? 0 : 1), passed};
   }
 
   // Depths before heights: a line that heights led would run to where E is great, not along its limb.
@@ -81,17 +88,14 @@ class Thinning {
     });
   }
 
-  void bared(Cell cell, double) {
-    if (!cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
+  bool stays(Cell cell) const { return !are_lines_ && DualComplex::dimension(cell) == 0; }
+
+  void lost_coface(Cell cell, std::uint32_t left, double now) {
+    if (!are_lines_ && DualComplex::dimension(cell) == 0) gone_.freed[cell] = static_cast<float>(now);
+    if (left == 0 && !cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
   }
 
-  void wave_ends() { fronts_.end_wave(); }
-
-  // When a cell was bared, or hardly later.
-  double opens(Cell cell) {
-    return DualComplex::dimension(cell) == 1 ? static_cast<double>(fronts_.reached(cell))
-                                             : radius_about(complex_, depth_, cell);
-  }
+  void wave_ends() { gone_.fronts.end_wave(); }
 
   std::optional<Cell> next_cut() {
     if (bared_cuts_.empty()) return std::nullopt;
@@ -102,9 +106,9 @@ class Thinning {
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
   void removed(Cell vertex, Cell edge, double now, bool passed) {
-    if (DualComplex::dimension(edge) == 2) bare_ends(vertex, fronts_.cross(vertex, edge, passed));
+    if (DualComplex::dimension(edge) == 2) bare_ends(vertex, gone_.fronts.cross(vertex, edge, passed));
     if (DualComplex::dimension(edge) != 1) return;
-    const auto birth = static_cast<double>(fronts_.reached(edge));
+    const auto birth = static_cast<double>(gone_.fronts.reached(edge));
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
     const double before = line.length();
@@ -123,10 +127,10 @@ class Thinning {
   }
 
  private:
-  double came_to(Cell vertex) {
-    const std::uint32_t number = line_at_[vertex];
-    const float line = number == DualComplex::kNone ? 0 : lines_[number].time;
-    return static_cast<double>(std::max(line, bared_at_[vertex]));
+  // Of the second stage: when the first one had left a cell as it is.
+  double came_to(Cell cell) {
+    if (!are_lines_) return 0;
+    return DualComplex::dimension(cell) == 0 ? static_cast<double>(gone_.freed[cell]) : radius_at(cell);
   }
 
   // When a square has gone with one of its edges.
@@ -223,16 +227,15 @@ class Thinning {
   }
 
   void finish(std::uint32_t number) {
-    add_tip(lines_[number], tips_);
+    keep_tip(lines_[number]);
     lines_[number].tip.reach = 0;
     free_.push_back(number);
   }
 
-  using Found = std::pair<std::uint32_t, LimbTip>;  // by which line
-
-  void add_tip(const Line& line, std::vector<Found>& tips) const {
+  void keep_tip(Line& line) {
     if (line.tip.reach < least_reach_) return;
-    tips.emplace_back(line.order, line.tip).second.vertex = tip_of(line);
+    line.tip.vertex = tip_of(line);
+    tips_.emplace_back(line.order, line.tip);
   }
 
   // Of a flat end, whose corners lie far from its middle, the tip is in the middle.
@@ -311,14 +314,15 @@ class Thinning {
   std::span<const double> height_;
   double slight_;
   double least_reach_;
+  Gone& gone_;
+  bool are_lines_ = false;
   std::set<Cell> cuts_;
   std::vector<Cell> bared_cuts_;
-  SheetFronts fronts_;
   std::deque<Line> lines_;  // under way, and places that are free
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
-  std::vector<Found> tips_;
-  CellValues<float> bared_at_{complex_, 0, 0};  // when squares and edges at a vertex went
+  std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line
+  CellValues<float> bared_at_{complex_, 0, 0};           // when squares and edges at a vertex went
   CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
 };
 
@@ -326,17 +330,36 @@ class Thinning {
 
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
                    double least_reach, ExecutionContext* context, const LimbOpenings& openings) {
-  Thinning thinning(complex, depth, height, least_reach);
-  Collapsing collapsing(complex, context);
-  collapsing.run(thinning);
-  LimbTips whole{thinning.tips(), collapsing.cells()};
+  Gone gone{SheetFronts(complex, depth), CellValues<float>(complex, 0, 0)};
+  Thinning thinning(complex, depth, height, least_reach, gone);
+  CellSet lines(complex);
+  {
+    Collapsing collapsing(complex, context);
+    collapsing.run(thinning);
+    lines = collapsing.cells();
+  }
+  const auto eaten = [&](std::span<const Cell> cuts) {
+    Thinning from_ends = thinning;
+    from_ends.begin_lines(cuts);
+    Collapsing collapsing(complex, lines, context);
+    collapsing.run(from_ends);
+    return LimbTips{from_ends.tips(), collapsing.cells()};
+  };
+  LimbTips whole = eaten({});
   if (!openings) return whole;
-  collapsing.rest();
-  const std::vector<Cell> cuts = openings(whole);
+  std::vector<Cell> cuts = openings(whole);
   if (cuts.empty()) return whole;
-  thinning.look_for(cuts);
-  collapsing.open(cuts, thinning);
-  return {thinning.tips(), collapsing.cells()};
+  std::erase_if(cuts, [&](Cell cut) {
+    if (!is_bare(complex, cut, lines)) return false;
+    lines.erase(cut);
+    if (DualComplex::dimension(cut) == 1)
+      complex.for_each_face(cut, [&](Cell end) {
+        float& freed = gone.freed[end];
+        freed = std::max(freed, gone.fronts.reached(cut));
+      });
+    return true;
+  });
+  return eaten(cuts);
 }
 
 }  // namespace affskel::core

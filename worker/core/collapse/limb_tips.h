@@ -41,9 +41,8 @@ using LimbOpenings = std::function<std::vector<DualComplex::Cell>(const LimbTips
 /// @param depth per cube: its distance to the surface, spacings; many are alike.
 /// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,
 ///   so that the lattice's order does not decide.
-/// @param openings asked once, unless it is empty, for cells that are taken out as soon as they have no coface; thinning
-///   goes on from there, as it would have gone when they were bared, and what it tells then is the result.  A limb with a
-///   loop has no tip.
+/// @param openings asked once, unless it is empty, for cells that are taken out as soon as they have no coface; the tips and
+///   what is left are those without them then.  A limb with a loop has no tip.
 /// @throws CoreError kCancelled when the context asks to stop.
 LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
                    double least_reach, ExecutionContext* context = nullptr,

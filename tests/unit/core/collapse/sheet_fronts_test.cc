@@ -38,7 +38,6 @@ struct Times {
     last = std::max(last, static_cast<double>(fronts.cross(cell, coface, passed)));
     steps = std::max(steps, now);
   }
-  void bared(Cell, double) {}
   void wave_ends() { fronts.end_wave(); }
 };
 
