@@ -108,7 +108,7 @@ CellSet collapsed(const DualComplex& complex, const CellSet& cells, std::span<co
   for (const Anchor& anchor : anchors)
     if (cells.has(anchor.cell)) collapsing.fix(anchor.cell);
   AnyOrder order;
-  collapsing.run(order);
+  collapsing.run(order, cells);
   return collapsing.cells();
 }
 

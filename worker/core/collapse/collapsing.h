@@ -88,6 +88,13 @@ class Collapsing {
     go_on(rules);
   }
 
+  /// The same where no others are there.
+  template <class Rules>
+  void run(Rules& rules, const CellSet& cells) {
+    cells.for_each([&](Cell cell) { offer(cell, 0, rules); });
+    go_on(rules);
+  }
+
   /// Goes on with a cell that was released.
   template <class Rules>
   void run_from(Cell cell, Rules& rules) {

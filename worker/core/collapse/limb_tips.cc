@@ -13,7 +13,6 @@
 #include "core/base/unit.h"
 #include "core/base/vec3.h"
 #include "core/collapse/collapsing.h"
-#include "core/collapse/sheet_fronts.h"
 
 namespace affskel::core {
 namespace {
@@ -39,30 +38,15 @@ constexpr double kSameEnd = 0.5;
 // A corner of a flat end lies so many times as far from its middle as from the surface.
 constexpr double kFlat = 2.5;
 
-// When what has gone of a solid has gone, but for its lines.
-struct Gone {
-  SheetFronts fronts;
-  CellValues<float> freed;  // per vertex: when it lost the last edge, in times of the collapse
-};
-
-// In two stages: cubes and squares, and lone edges, which go with the vertices at the ends of lines.  The second changes
-// nothing of the first.
-class Thinning {
+// Eats lone edges from the ends of their lines.
+class LineThinning {
  public:
-  Thinning(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-           double least_reach, Gone& gone)
-      : complex_(complex),
-        depth_(depth),
-        height_(height),
-        slight_(1e-3 / *std::max_element(height.begin(), height.end())),
+  LineThinning(ThinnedSolid& solid, double least_reach, std::span<const Cell> cuts)
+      : complex_(*solid.complex),
+        solid_(solid),
         least_reach_(least_reach),
-        gone_(gone) {}
-
-  // @param cuts which are taken out once they have no coface.
-  void begin_lines(std::span<const Cell> cuts) {
-    are_lines_ = true;
-    cuts_.insert(cuts.begin(), cuts.end());
-  }
+        cuts_(cuts.begin(), cuts.end()),
+        line_at_(complex_, 0, DualComplex::kNone) {}
 
   std::vector<LimbTip> tips() {
     for (Line& line : lines_) keep_tip(line);
@@ -72,30 +56,22 @@ class Thinning {
     return result;
   }
 
-  // Marks where the front has passed already.
+  // Marks where the front has passed already.  Where a closed surface is cut, its squares go, too.
   Collapsing::Due due(Cell cell, Cell coface, double now) {
-    if (DualComplex::dimension(coface) == 3)
-      return {std::max(now, static_cast<double>(depth_[DualComplex::cube_of(coface)]))};
-    if (DualComplex::dimension(coface) == 2) gone_.fronts.stands_at(cell);
-    const bool passed = gone_.fronts.is_passed(cell, coface);
-    return {std::max(now, came_to(cell)) + (passed ? 0 : 1), passed};
+    const bool is_line = DualComplex::dimension(coface) == 1;
+    if (!is_line) solid_.fronts.stands_at(cell);
+    const bool passed = solid_.fronts.is_passed(cell, coface);
+    const double came_to = is_line ? static_cast<double>(solid_.freed[cell]) : solid_.radius_at(cell);
+    return {std::max(now, came_to) + (passed ? 0 : 1), passed};
   }
 
-  // Depths before heights: a line that heights led would run to where E is great, not along its limb.
-  double level(Cell cell) const {
-    return value_at<Continued::kFromAllCubes>(complex_, cell, [&](std::uint32_t cube) {
-      return static_cast<double>(depth_[cube]) + slight_ * height_[cube];
-    });
-  }
+  double level(Cell cell) const { return solid_.level(cell); }
 
-  bool stays(Cell cell) const { return !are_lines_ && DualComplex::dimension(cell) == 0; }
-
-  void lost_coface(Cell cell, std::uint32_t left, double now) {
-    if (!are_lines_ && DualComplex::dimension(cell) == 0) gone_.freed[cell] = static_cast<float>(now);
+  void lost_coface(Cell cell, std::uint32_t left, double) {
     if (left == 0 && !cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
   }
 
-  void wave_ends() { gone_.fronts.end_wave(); }
+  void wave_ends() { solid_.fronts.end_wave(); }
 
   std::optional<Cell> next_cut() {
     if (bared_cuts_.empty()) return std::nullopt;
@@ -106,16 +82,15 @@ class Thinning {
 
   // A lone edge goes with the vertex at its end: the line's end moves on to its other vertex.
   void removed(Cell vertex, Cell edge, double now, bool passed) {
-    if (DualComplex::dimension(edge) == 2) bare_ends(vertex, gone_.fronts.cross(vertex, edge, passed));
-    if (DualComplex::dimension(edge) != 1) return;
-    const auto birth = static_cast<double>(gone_.fronts.reached(edge));
+    if (DualComplex::dimension(edge) == 2) return solid_.cross(vertex, edge, passed);
+    const auto birth = static_cast<double>(solid_.fronts.reached(edge));
     const std::uint32_t number = line_ending_at(vertex, birth);
     Line& line = lines_[number];
     const double before = line.length();
     const Cell end = line.go(complex_, edge, vertex, now);
     const double length = line.length(), step = passed ? 0 : length - before;
-    const double eaten = std::max(static_cast<double>(bared_at_[vertex]), birth) + step;
-    float& bared_at_end = bared_at_[end];
+    const double eaten = std::max(static_cast<double>(solid_.bared[vertex]), birth) + step;
+    float& bared_at_end = solid_.bared[end];
     bared_at_end = std::max(bared_at_end, static_cast<float>(eaten));
     if (line.begun || !begins_at(end, birth, length, line)) {
       const double way = std::min(length - line.tip_at, eaten - birth);
@@ -127,17 +102,6 @@ class Thinning {
   }
 
  private:
-  // Of the second stage: when the first one had left a cell as it is.
-  double came_to(Cell cell) {
-    if (!are_lines_) return 0;
-    return DualComplex::dimension(cell) == 0 ? static_cast<double>(gone_.freed[cell]) : radius_at(cell);
-  }
-
-  // When a square has gone with one of its edges.
-  void bare_ends(Cell edge, float when) {
-    complex_.for_each_face(edge, [&](Cell vertex) { bared_at_[vertex] = std::max(bared_at_[vertex], when); });
-  }
-
   // What was eaten of a line.  Its length is measured in chords of a few edges, since edges turn with the
   // lattice's axes.
   struct Line {
@@ -183,7 +147,7 @@ class Thinning {
 
   // Whether the limb of a line begins where that has come to.
   bool begins_at(Cell end, double birth, double length, Line& line) const {
-    const double fall = kSteep * length, radius = radius_at(end);
+    const double fall = kSteep * length, radius = solid_.radius_at(end);
     if (radius - fall > line.rise) {
       line.tip.vertex = end;
       line.rise = radius - fall;
@@ -205,7 +169,7 @@ class Thinning {
   std::uint32_t line_ending_at(Cell vertex, double birth) {
     const std::uint32_t number = std::exchange(line_at_[vertex], DualComplex::kNone);
     if (number == DualComplex::kNone) {
-      const double radius = radius_at(vertex);
+      const double radius = solid_.radius_at(vertex);
       return put({.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth},
                   .rise = radius,
                   .lead = birth,
@@ -249,7 +213,7 @@ class Thinning {
       aside[axis] = middle - line.tip_place[axis];
     }
     const std::optional<Cell> middle = middle_of_end(line.tip.root, way);
-    return middle && norm(aside) > kFlat * radius_at(*middle) ? *middle : corner;
+    return middle && norm(aside) > kFlat * solid_.radius_at(*middle) ? *middle : corner;
   }
 
   // On the straight way from the root to the middle of the tips of a limb's lines, and on from there as far as the distance
@@ -266,7 +230,7 @@ class Thinning {
         if (gone <= length) return std::nullopt;
         break;
       }
-      const double value = radius_at(*here) + kSteep * gone;
+      const double value = solid_.radius_at(*here) + kSteep * gone;
       if (gone > length && value < most) break;
       most = std::max(most, value);
       best = *here;
@@ -307,59 +271,40 @@ class Thinning {
     return line.time > than.time || rank(than) < rank(line);
   }
 
-  double radius_at(Cell vertex) const { return radius_about(complex_, depth_, vertex); }
-
   const DualComplex& complex_;
-  std::span<const float> depth_;
-  std::span<const double> height_;
-  double slight_;
+  ThinnedSolid& solid_;
   double least_reach_;
-  Gone& gone_;
-  bool are_lines_ = false;
   std::set<Cell> cuts_;
   std::vector<Cell> bared_cuts_;
   std::deque<Line> lines_;  // under way, and places that are free
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
   std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line
-  CellValues<float> bared_at_{complex_, 0, 0};           // when squares and edges at a vertex went
-  CellValues<std::uint32_t> line_at_{complex_, 0, DualComplex::kNone};  // per vertex at the end of a line
+  CellValues<std::uint32_t> line_at_;                    // per vertex at the end of a line
 };
 
 }  // namespace
 
-LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-                   double least_reach, ExecutionContext* context, const LimbOpenings& openings) {
-  Gone gone{SheetFronts(complex, depth), CellValues<float>(complex, 0, 0)};
-  Thinning thinning(complex, depth, height, least_reach, gone);
-  CellSet lines(complex);
-  {
-    Collapsing collapsing(complex, context);
-    collapsing.run(thinning);
-    lines = collapsing.cells();
+std::vector<LimbTip> limb_tips(ThinnedSolid solid, double least_reach, std::span<const Cell> cuts,
+                               ExecutionContext* context) {
+  const DualComplex& complex = *solid.complex;
+  std::vector<Cell> covered;  // cuts that are bared later
+  for (const Cell cut : cuts) {
+    if (!is_bare(complex, cut, solid.cells)) {
+      covered.push_back(cut);
+      continue;
+    }
+    solid.cells.erase(cut);
+    if (DualComplex::dimension(cut) != 1) continue;
+    complex.for_each_face(cut, [&](Cell end) {
+      float& freed = solid.freed[end];
+      freed = std::max(freed, solid.fronts.reached(cut));
+    });
   }
-  const auto eaten = [&](std::span<const Cell> cuts) {
-    Thinning from_ends = thinning;
-    from_ends.begin_lines(cuts);
-    Collapsing collapsing(complex, lines, context);
-    collapsing.run(from_ends);
-    return LimbTips{from_ends.tips(), collapsing.cells()};
-  };
-  LimbTips whole = eaten({});
-  if (!openings) return whole;
-  std::vector<Cell> cuts = openings(whole);
-  if (cuts.empty()) return whole;
-  std::erase_if(cuts, [&](Cell cut) {
-    if (!is_bare(complex, cut, lines)) return false;
-    lines.erase(cut);
-    if (DualComplex::dimension(cut) == 1)
-      complex.for_each_face(cut, [&](Cell end) {
-        float& freed = gone.freed[end];
-        freed = std::max(freed, gone.fronts.reached(cut));
-      });
-    return true;
-  });
-  return eaten(cuts);
+  Collapsing collapsing(complex, solid.cells, context);
+  LineThinning thinning(solid, least_reach, covered);
+  collapsing.run(thinning, solid.cells);
+  return thinning.tips();
 }
 
 }  // namespace affskel::core

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/base/execution_context.h"
-#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
+#include "core/collapse/thinned_solid.h"
 
 namespace affskel::core {
 
@@ -20,15 +19,6 @@ struct LimbTip {
   double length = 0;           ///< the greatest way, spacings
 };
 
-/// What thinning tells.
-struct LimbTips {
-  std::vector<LimbTip> tips;  ///< by the order in which they were found
-  CellSet left;  ///< loops, closed surfaces, lines between them: what has no end to be eaten from
-};
-
-/// Squares and edges of what thinning leaves that are to be taken out.
-using LimbOpenings = std::function<std::vector<DualComplex::Cell>(const LimbTips& whole)>;
-
 /// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and
 /// Ju 2010).  The complex is collapsed from the surface inwards at unit speed.  A lone edge, one whose last
 /// square has gone, is born then; lone edges are eaten from the ends of their line, and live until then.
@@ -37,15 +27,16 @@ using LimbOpenings = std::function<std::vector<DualComplex::Cell>(const LimbTips
 /// as long as wide.  From there on the line must have an edge whose way from there, and whose life, are `least_reach`
 /// times the time of its birth: the limb is longer than it is wide.  Its tip lies farther out, as long as the distance
 /// to the surface does not grow fast; of a flat end it lies in the middle between its corners.
-/// A function of complex, depths and heights alone.
-/// @param depth per cube: its distance to the surface, spacings; many are alike.
-/// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,
-///   so that the lattice's order does not decide.
-/// @param openings asked once, unless it is empty, for cells that are taken out as soon as they have no coface; the tips and
-///   what is left are those without them then.  A limb with a loop has no tip.
+/// @param solid thinned, see thinned_solid(), by
+///   depth, per cube: its distance to the surface, spacings; many are alike;
+///   height, per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first, so that
+///   the lattice's order does not decide.
+/// @param cuts squares and edges that are taken out as soon as they have no coface: a limb with a loop has no tip.
+/// @return by the order in which they were found.
+/// A function of its arguments alone.
 /// @throws CoreError kCancelled when the context asks to stop.
-LimbTips limb_tips(const DualComplex& complex, std::span<const float> depth, std::span<const double> height,
-                   double least_reach, ExecutionContext* context = nullptr,
-                   const LimbOpenings& openings = {});
+std::vector<LimbTip> limb_tips(ThinnedSolid solid, double least_reach,
+                               std::span<const DualComplex::Cell> cuts = {},
+                               ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

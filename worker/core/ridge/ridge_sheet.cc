@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/collapse/collapse.h"
 #include "core/collapse/shortest_loops.h"
+#include "core/collapse/thinned_solid.h"
 #include "core/contour/dual_contour.h"
 #include "core/contour/edge_cells.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -275,29 +276,33 @@ class SheetMaker {
 };
 
 // What thinning the whole complex tells.
-void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field,
+void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
                 ExecutionContext* context, RidgeBasis& basis) {
-  basis.topology = betti_numbers(basis.complex, context);
-  const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
-  std::optional<LimbTips> whole;  // where what is opened stays in the skeleton
-  const auto openings = [&](const LimbTips& found) -> std::vector<DualComplex::Cell> {
-    if (noisy) return bored_cells(*noisy, found.left, {}, context).cells;
-    if (basis.topology.holes == 0) return {};
-    CellSet left = found.left;
-    std::vector<DualComplex::Cell> cut =
-        fill_tunnels(solid, lattice, basis.complex, {}, basis.radius, left, context).edges;
-    if (!cut.empty()) whole = found;
-    return cut;
-  };
-  LimbTips limbs =
-      limb_tips(basis.complex, basis.radius, field.erosion, RidgeConstants::limb_reach, context, openings);
-  if (whole) {
-    basis.opened_limbs = std::move(limbs.tips);
-    limbs = std::move(*whole);
+  const DualComplex& complex = basis.complex;
+  basis.topology = betti_numbers(complex, context);
+  ThinnedSolid thinned = thinned_solid(complex, basis.radius, field.erosion, context);
+  CellSet left = collapsed(complex, thinned.cells, {}, context);
+  constexpr double kReach = RidgeConstants::limb_reach;
+  if (const auto noisy = noisy_solid(solid, lattice, basis)) {
+    BoredCells bored = bored_cells(*noisy, left, {}, context);
+    left = std::move(bored.left);
+    basis.limbs = limb_tips(std::move(thinned), kReach, bored.cells, context);
+  } else {
+    std::vector<DualComplex::Cell> cuts;
+    if (basis.topology.holes > 0) {
+      CellSet filled = left;
+      cuts = fill_tunnels(solid, lattice, complex, {}, basis.radius, filled, context).edges;
+    }
+    if (!cuts.empty())
+      parallel_for(threads, 2, [&](std::size_t n) {
+        (n == 0 ? basis.limbs : basis.opened_limbs) =
+            limb_tips(thinned, kReach, n == 0 ? std::span<const DualComplex::Cell>() : cuts, context);
+      });
+    else
+      basis.limbs = limb_tips(std::move(thinned), kReach, {}, context);
   }
-  basis.limbs = std::move(limbs.tips);
-  basis.core = core_of(basis.complex, limbs.left);
-  basis.loops = loops_of(lattice, basis.complex, limbs.left, context);
+  basis.core = core_of(complex, left);
+  basis.loops = loops_of(lattice, complex, left, context);
 }
 
 }  // namespace
@@ -310,7 +315,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
   const bool at_once = threads > 1 && lattice.points >= kBesideEachOther;
   parallel_for(at_once ? 2 : 1, 2, [&](std::size_t n) {
     if (n == 0)
-      find_limbs(solid, lattice, field, context, basis);
+      find_limbs(solid, lattice, field, threads, context, basis);
     else
       basis.derivatives = smoothed_derivatives(lattice, field, at_once ? threads - 1 : threads, context);
   });

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/collapse/collapse.h"
 #include "core/collapse/lattice_solids.h"
 #include "core/curve/tubes.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -32,7 +33,7 @@ std::vector<Vec3> tips_of(const Mesh& mesh, double spacing, const Vec3& uphill =
     height[rank] += 10 + dot(uphill, places.at(i, j, k));
   });
   std::vector<Vec3> result;
-  for (const LimbTip& tip : limb_tips(complex, depth, height, 1).tips) {
+  for (const LimbTip& tip : limb_tips(thinned_solid(complex, depth, height), 1)) {
     const std::uint32_t cube = DualComplex::cube_of(tip.vertex);
     const LatticePlace at = lattice_places(solid.lattice, std::vector<std::uint32_t>{cube})[0];
     Vec3 place = places.at(at[0], at[1], at[2]);
@@ -62,7 +63,8 @@ std::vector<double> reaches(const Mesh& mesh, double spacing) {
     const DualComplex complex(solid.lattice);
     const std::vector<float> depth = surface_distance(solid.lattice);
     const std::vector<double> height(depth.begin(), depth.end());
-    for (const LimbTip& tip : limb_tips(complex, depth, height, 0.9).tips) result.push_back(tip.reach);
+    for (const LimbTip& tip : limb_tips(thinned_solid(complex, depth, height), 0.9))
+      result.push_back(tip.reach);
   }
   return result;
 }
@@ -117,6 +119,15 @@ TEST(LimbTips, OfMirrorImagesAreMirrorImages) {
   EXPECT_GT(all, 20);
 }
 
+// The edges that no end leads to.
+std::vector<DualComplex::Cell> loop_of(const DualComplex& complex, const ThinnedSolid& thinned) {
+  std::vector<DualComplex::Cell> edges;
+  collapsed(complex, thinned.cells, {}).for_each([&](DualComplex::Cell cell) {
+    if (DualComplex::dimension(cell) == 1) edges.push_back(cell);
+  });
+  return edges;
+}
+
 // A stick with a ring at one end, which has no tip while it is a loop.
 TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
   const Mesh ring = moved(make_torus(1.2, 0.4, 1024), {7.2, 0.4, 0.4});
@@ -124,19 +135,11 @@ TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
   const DualComplex complex(solid.lattice);
   const std::vector<float> depth = surface_distance(solid.lattice);
   const std::vector<double> height(depth.begin(), depth.end());
-  const LimbTips whole = limb_tips(complex, depth, height, 1);
-  EXPECT_EQ(whole.tips.size(), 1U);
-  std::vector<DualComplex::Cell> loop;
-  whole.left.for_each([&](DualComplex::Cell cell) {
-    if (DualComplex::dimension(cell) == 1) loop.push_back(cell);
-  });
+  const ThinnedSolid thinned = thinned_solid(complex, depth, height);
+  EXPECT_EQ(limb_tips(thinned, 1).size(), 1U);
+  const std::vector<DualComplex::Cell> loop = loop_of(complex, thinned);
   ASSERT_GT(loop.size(), 20U);
-  const LimbTips cut = limb_tips(complex, depth, height, 1, nullptr,
-                                 [&](const LimbTips&) { return std::vector{loop[loop.size() / 2]}; });
-  EXPECT_GE(cut.tips.size(), 2U);
-  bool empty = true;
-  cut.left.for_each([&](DualComplex::Cell cell) { empty = empty && DualComplex::dimension(cell) == 0; });
-  EXPECT_TRUE(empty);
+  EXPECT_GE(limb_tips(thinned, 1, std::vector{loop[loop.size() / 2]}).size(), 2U);
 }
 
 // A fork whose prongs a thread joins, but for a gap in its middle.
@@ -162,21 +165,17 @@ TEST(LimbTips, OfWhatIsOpenedAreThoseOfWhatIsOpen) {
       const auto at = lattice_places(solid.lattice, std::vector{DualComplex::cube_of(cell)})[0];
       return norm(places.at(at[0], at[1], at[2]) - Vec3{0, 0, 8});
     };
-    const auto in_middle = [&](const LimbTips& whole) {
-      EXPECT_EQ(whole.tips.size(), 1U);
-      std::vector<DualComplex::Cell> edges;
-      whole.left.for_each([&](DualComplex::Cell cell) {
-        if (DualComplex::dimension(cell) == 1) edges.push_back(cell);
-      });
-      return std::vector{*std::ranges::min_element(edges, {}, from_middle)};
-    };
-    const LimbTips found =
-        limb_tips(complex, depth, height, 0.9, nullptr, is_opened ? LimbOpenings(in_middle) : LimbOpenings());
-    tips[is_opened] = found.tips;
-    ASSERT_EQ(found.tips.size(), 3U);
-    EXPECT_EQ(
-        std::ranges::count_if(found.tips, [&](const LimbTip& tip) { return from_middle(tip.vertex) < 1.2; }),
-        2);
+    const ThinnedSolid thinned = thinned_solid(complex, depth, height);
+    std::vector<DualComplex::Cell> cuts;
+    if (is_opened) {
+      EXPECT_EQ(limb_tips(thinned, 0.9).size(), 1U);
+      const std::vector<DualComplex::Cell> loop = loop_of(complex, thinned);
+      cuts = {*std::ranges::min_element(loop, {}, from_middle)};
+    }
+    const std::vector<LimbTip>& found = tips[is_opened] = limb_tips(thinned, 0.9, cuts);
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(std::ranges::count_if(found, [&](const LimbTip& tip) { return from_middle(tip.vertex) < 1.2; }),
+              2);
   }
   for (auto& found : tips) std::ranges::sort(found, {}, &LimbTip::reach);
   for (std::size_t n = 0; n < 3; ++n) {

@@ -28,10 +28,11 @@ TEST(RidgeBasis, OfAFineLatticeHasWhatEachStepGives) {
     ASSERT_TRUE(basis.derivatives[p].hessian == derivatives[p].hessian &&
                 basis.derivatives[p].gradient == derivatives[p].gradient)
         << p;
-  const LimbTips limbs = limb_tips(basis.complex, basis.radius, field.erosion, RidgeConstants::limb_reach);
-  ASSERT_FALSE(limbs.tips.empty());
-  ASSERT_EQ(basis.limbs.size(), limbs.tips.size());
-  for (std::size_t n = 0; n < limbs.tips.size(); ++n) EXPECT_EQ(basis.limbs[n].vertex, limbs.tips[n].vertex);
+  const std::vector<LimbTip> limbs =
+      limb_tips(thinned_solid(basis.complex, basis.radius, field.erosion), RidgeConstants::limb_reach);
+  ASSERT_FALSE(limbs.empty());
+  ASSERT_EQ(basis.limbs.size(), limbs.size());
+  for (std::size_t n = 0; n < limbs.size(); ++n) EXPECT_EQ(basis.limbs[n].vertex, limbs[n].vertex);
 }
 
 }  // namespace
