@@ -41,10 +41,12 @@ constexpr double kFlat = 2.5;
 // Eats lone edges from the ends of their lines.
 class LineThinning {
  public:
-  LineThinning(ThinnedSolid& solid, double least_reach, std::span<const Cell> cuts)
+  // @param cut_ends vertices of edges that are cut; `cuts` are to be taken out once they have no coface.
+  LineThinning(ThinnedSolid& solid, double least_reach, std::set<Cell> cut_ends, std::span<const Cell> cuts)
       : complex_(*solid.complex),
         solid_(solid),
         least_reach_(least_reach),
+        cut_ends_(std::move(cut_ends)),
         cuts_(cuts.begin(), cuts.end()),
         line_at_(complex_, 0, DualComplex::kNone) {}
 
@@ -61,7 +63,7 @@ class LineThinning {
     const bool is_line = DualComplex::dimension(coface) == 1;
     if (!is_line) solid_.fronts.stands_at(cell);
     const bool passed = solid_.fronts.is_passed(cell, coface);
-    const double came_to = is_line ? static_cast<double>(solid_.freed[cell]) : solid_.radius_at(cell);
+    const double came_to = is_line ? solid_.freed_at(cell) : solid_.radius_at(cell);
     return {std::max(now, came_to) + (passed ? 0 : 1), passed};
   }
 
@@ -168,13 +170,16 @@ class LineThinning {
   // The line whose end a vertex is, which begins there if there is none.
   std::uint32_t line_ending_at(Cell vertex, double birth) {
     const std::uint32_t number = std::exchange(line_at_[vertex], DualComplex::kNone);
+    const bool is_cut = !cut_ends_.empty() && cut_ends_.contains(vertex);
     if (number == DualComplex::kNone) {
       const double radius = solid_.radius_at(vertex);
-      return put({.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth},
-                  .rise = radius,
-                  .lead = birth,
-                  .order = begun_++});
+      return put(
+          {.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth, .is_cut = is_cut},
+           .rise = radius,
+           .lead = birth,
+           .order = begun_++});
     }
+    if (is_cut && !lines_[number].begun) lines_[number].tip.is_cut = true;
     return number;
   }
 
@@ -274,6 +279,7 @@ class LineThinning {
   const DualComplex& complex_;
   ThinnedSolid& solid_;
   double least_reach_;
+  std::set<Cell> cut_ends_;
   std::set<Cell> cuts_;
   std::vector<Cell> bared_cuts_;
   std::deque<Line> lines_;  // under way, and places that are free
@@ -288,6 +294,7 @@ class LineThinning {
 std::vector<LimbTip> limb_tips(ThinnedSolid solid, double least_reach, std::span<const Cell> cuts,
                                ExecutionContext* context) {
   const DualComplex& complex = *solid.complex;
+  std::set<Cell> ends;
   std::vector<Cell> covered;  // cuts that are bared later
   for (const Cell cut : cuts) {
     if (!is_bare(complex, cut, solid.cells)) {
@@ -297,13 +304,17 @@ std::vector<LimbTip> limb_tips(ThinnedSolid solid, double least_reach, std::span
     solid.cells.erase(cut);
     if (DualComplex::dimension(cut) != 1) continue;
     complex.for_each_face(cut, [&](Cell end) {
-      float& freed = solid.freed[end];
-      freed = std::max(freed, solid.fronts.reached(cut));
+      solid.free(end, static_cast<double>(solid.fronts.reached(cut)));
+      ends.insert(end);
     });
   }
-  Collapsing collapsing(complex, solid.cells, context);
-  LineThinning thinning(solid, least_reach, covered);
-  collapsing.run(thinning, solid.cells);
+  // The cells go before it runs: memory is tight here.
+  Collapsing collapsing = [&] {
+    const CellSet cells = std::move(solid.cells);
+    return Collapsing(complex, cells, context);
+  }();
+  LineThinning thinning(solid, least_reach, std::move(ends), covered);
+  collapsing.run(thinning);
   return thinning.tips();
 }
 

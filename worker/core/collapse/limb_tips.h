@@ -17,6 +17,7 @@ struct LimbTip {
   double width = 0;            ///< half the limb's width there, across its wider side, spacings
   double reach = 0;            ///< the greatest way along the line from there over the birth of an edge
   double length = 0;           ///< the greatest way, spacings
+  bool is_cut = false;         ///< it ends where an edge was taken out
 };
 
 /// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/collapse/collapsing.h"
-
 namespace affskel::core {
 namespace {
 
@@ -25,7 +23,7 @@ class SheetThinning {
   double level(Cell cell) const { return solid_.level(cell); }
   void wave_ends() { solid_.fronts.end_wave(); }
   void lost_coface(Cell cell, std::uint32_t, double now) {
-    if (DualComplex::dimension(cell) == 0) solid_.freed[cell] = static_cast<float>(now);
+    if (DualComplex::dimension(cell) == 0) solid_.free(cell, now);
   }
   void removed(Cell cell, Cell coface, double, bool passed) {
     if (DualComplex::dimension(coface) == 2) solid_.cross(cell, coface, passed);
@@ -53,7 +51,7 @@ ThinnedSolid thinned_solid(const DualComplex& complex, std::span<const float> de
                      .cells = CellSet(complex),
                      .fronts = SheetFronts(complex, depth),
                      .bared = CellValues<float>(complex, 0, 0),
-                     .freed = CellValues<float>(complex, 0, 0),
+                     .freed = CellValues<std::uint16_t>(complex, 0, 0),
                      .slight = 1e-3 / *std::max_element(height.begin(), height.end())};
   Collapsing collapsing(complex, context);
   SheetThinning thinning(solid);

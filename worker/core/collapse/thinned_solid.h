@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/base/execution_context.h"
 #include "core/collapse/cell_sets.h"
+#include "core/collapse/collapsing.h"
 #include "core/collapse/dual_complex.h"
 #include "core/collapse/sheet_fronts.h"
 
@@ -15,12 +19,11 @@ struct ThinnedSolid {
   const DualComplex* complex;
   std::span<const float> depth;
   std::span<const double> height;
-  CellSet cells;            ///< lines, with all the hair on them, and closed surfaces
-  SheetFronts fronts;       ///< that have passed
-  CellValues<float> bared;  ///< per vertex: when a front has left it, spacings
-  CellValues<float>
-      freed;  ///< per vertex: when it lost the last of its edges that went with squares, times of the collapse
-  double slight = 0;  ///< what heights count beside depths
+  CellSet cells;                    ///< lines, with all the hair on them, and closed surfaces
+  SheetFronts fronts;               ///< that have passed
+  CellValues<float> bared;          ///< per vertex: when a front has left it, spacings
+  CellValues<std::uint16_t> freed;  ///< per vertex: see freed_at()
+  double slight = 0;                ///< what heights count beside depths
 
   /// Of those that go at once, and are in each other's way, the lowest goes.  Depths before heights: a line that heights
   /// led would run to where E is great, not along its limb.
@@ -31,6 +34,15 @@ struct ThinnedSolid {
   }
 
   double radius_at(DualComplex::Cell cell) const { return radius_about(*complex, depth, cell); }
+
+  /// When a vertex lost the last of its edges that went with squares: in times of the collapse, which are told apart by
+  /// Collapsing::kStep.
+  double freed_at(DualComplex::Cell vertex) { return freed[vertex] * Collapsing::kStep; }
+  void free(DualComplex::Cell vertex, double now) {
+    constexpr double kLast = std::numeric_limits<std::uint16_t>::max();
+    std::uint16_t& last = freed[vertex];
+    last = std::max(last, static_cast<std::uint16_t>(std::min(kLast, now / Collapsing::kStep)));
+  }
 
   /// A square goes, with an edge of its.
   void cross(DualComplex::Cell edge, DualComplex::Cell square, bool passed);

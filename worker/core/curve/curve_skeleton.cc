@@ -109,7 +109,7 @@ LimbEnds ends_of_limbs(const Lattice& lattice, const RidgeBasis& basis, const Ri
   const PointIndex index(places);
   std::vector<LimbTip> limbs = basis.limbs;
   limbs.insert(limbs.end(), ridge.filled.limbs.begin(), ridge.filled.limbs.end());
-  raise_reaches(lattice, basis.opened_limbs, limbs);
+  raise_reaches(lattice, basis.cut_limbs, limbs);
   const std::vector<Vec3> tips = places_of(lattice, limbs);
   for (std::size_t n = 0; n < limbs.size(); ++n) {
     const LimbTip& limb = limbs[n];

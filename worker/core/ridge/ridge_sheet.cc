@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -276,7 +277,7 @@ class SheetMaker {
 };
 
 // What thinning the whole complex tells.
-void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
+void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field,
                 ExecutionContext* context, RidgeBasis& basis) {
   const DualComplex& complex = basis.complex;
   basis.topology = betti_numbers(complex, context);
@@ -293,13 +294,10 @@ void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& fi
       CellSet filled = left;
       cuts = fill_tunnels(solid, lattice, complex, {}, basis.radius, filled, context).edges;
     }
-    if (!cuts.empty())
-      parallel_for(threads, 2, [&](std::size_t n) {
-        (n == 0 ? basis.limbs : basis.opened_limbs) =
-            limb_tips(thinned, kReach, n == 0 ? std::span<const DualComplex::Cell>() : cuts, context);
-      });
-    else
-      basis.limbs = limb_tips(std::move(thinned), kReach, {}, context);
+    basis.limbs = limb_tips(std::move(thinned), kReach, cuts, context);
+    const auto cut = std::ranges::stable_partition(basis.limbs, std::logical_not(), &LimbTip::is_cut);
+    basis.cut_limbs.assign(cut.begin(), cut.end());
+    basis.limbs.erase(cut.begin(), cut.end());
   }
   basis.core = core_of(complex, left);
   basis.loops = loops_of(lattice, complex, left, context);
@@ -315,7 +313,7 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
   const bool at_once = threads > 1 && lattice.points >= kBesideEachOther;
   parallel_for(at_once ? 2 : 1, 2, [&](std::size_t n) {
     if (n == 0)
-      find_limbs(solid, lattice, field, threads, context, basis);
+      find_limbs(solid, lattice, field, context, basis);
     else
       basis.derivatives = smoothed_derivatives(lattice, field, at_once ? threads - 1 : threads, context);
   });
