@@ -36,7 +36,7 @@ struct ThinnedSolid {
   double radius_at(DualComplex::Cell cell) const { return radius_about(*complex, depth, cell); }
 
   /// When a vertex lost the last of its edges that went with squares: in times of the collapse, which are told apart by
-  /// Collapsing::kStep.
+  /// Collapsing::kStep; what is later than 8191 spacings counts as that.
   double freed_at(DualComplex::Cell vertex) { return freed[vertex] * Collapsing::kStep; }
   void free(DualComplex::Cell vertex, double now) {
     constexpr double kLast = std::numeric_limits<std::uint16_t>::max();
