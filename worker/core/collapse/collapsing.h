@@ -14,7 +14,7 @@ namespace affskel::core {
 
 /// Elementary collapses of a complex, in an order.  A cell is free when it has exactly one coface; a free cell
 /// and its coface are removed together, which keeps the homotopy type (Whitehead 1939).  What collapse() and
-/// limb_tips() share.
+/// thinned_solid() with limb_tips() share.
 class Collapsing {
  public:
   using Cell = DualComplex::Cell;

@@ -15,7 +15,7 @@ namespace affskel::core {
 
 struct FilledTunnels {
   std::vector<DualComplex::Cell> edges;  ///< that are taken out, one of each
-  /// What hung loose and stays.  limb_tips() sees none of them: while the solid is thinned they are a loop.
+  /// What hung loose and stays: RidgeBasis::limbs has none of them.
   std::vector<LimbTip> limbs;
 };
 
