@@ -47,8 +47,8 @@ core::CurveOptions CurveOfField::options_at(double threshold) const {
 }
 
 core::SheetMesh CurveOfField::lines_at(double threshold) const {
-  const auto known = lines_.find(threshold);
-  return known != lines_.end() ? known->second : core::curve_lines(input(), options_at(threshold));
+  if (auto known = lines_.extract(threshold)) return std::move(known.mapped());
+  return core::curve_lines(input(), options_at(threshold));
 }
 
 core::CurveInput CurveOfField::input() const {
@@ -72,18 +72,22 @@ const core::CurveSkeleton& CurveOfField::for_report(double threshold) const {
   core::CurveOptions options = options_at(threshold);
   auto& curves = field_.known().curves;
   if (options.threads == 1 || !next || curves.contains(options.least_reach)) return at(threshold);
-  options.threads /= 2;
   core::CurveOptions later = options;
   later.least_reach = *next;
   const core::CurveInput in = input();
   core::CurveSkeleton curve;
-  core::SheetMesh& lines = lines_[*next];
-  core::parallel_for(2, 2, [&](std::size_t n) {
-    if (n == 0)
-      curve = core::curve_skeleton(in, options);
-    else
-      lines = core::curve_lines(in, later);
-  });
+  core::SheetMesh lines;
+  core::parallel_halves(
+      options.threads,
+      [&](unsigned threads) {
+        options.threads = threads;
+        curve = core::curve_skeleton(in, options);
+      },
+      [&](unsigned threads) {
+        later.threads = threads;
+        lines = core::curve_lines(in, later);
+      });
+  lines_.emplace(*next, std::move(lines));
   return curves.emplace(options.least_reach, std::move(curve)).first->second;
 }
 

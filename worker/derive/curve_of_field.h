@@ -45,7 +45,7 @@ class CurveOfField {
   const RidgeOfField& ridge_;
   const core::RidgeSheet& sheet_;                             // at its default threshold
   mutable std::unique_ptr<const core::LimbSurface> surface_;  // once asked for
-  mutable std::map<double, core::SheetMesh> lines_;           // by threshold
+  mutable std::map<double, core::SheetMesh> lines_;           // by threshold, until asked for
 };
 
 /// Per sample point: the part of the solid that it lies in, from 1.

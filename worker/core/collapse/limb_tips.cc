@@ -291,31 +291,38 @@ class LineThinning {
 
 }  // namespace
 
-std::vector<LimbTip> limb_tips(ThinnedSolid solid, double least_reach, std::span<const Cell> cuts,
-                               ExecutionContext* context) {
+LimbTips limb_tips(ThinnedSolid solid, double least_reach, std::span<const Cell> cuts,
+                   ExecutionContext* context) {
   const DualComplex& complex = *solid.complex;
   std::set<Cell> ends;
   std::vector<Cell> covered;  // cuts that are bared later
-  for (const Cell cut : cuts) {
-    if (!is_bare(complex, cut, solid.cells)) {
-      covered.push_back(cut);
-      continue;
+  for (const int dimension : {2, 1}) {
+    for (const Cell cut : cuts) {
+      if (DualComplex::dimension(cut) != dimension) continue;
+      if (!is_bare(complex, cut, solid.cells)) {
+        covered.push_back(cut);
+        continue;
+      }
+      solid.cells.erase(cut);
+      if (dimension == 2) continue;
+      complex.for_each_face(cut, [&](Cell end) {
+        solid.note_freed(end, static_cast<double>(solid.fronts.reached(cut)));
+        ends.insert(end);
+      });
     }
-    solid.cells.erase(cut);
-    if (DualComplex::dimension(cut) != 1) continue;
-    complex.for_each_face(cut, [&](Cell end) {
-      solid.free(end, static_cast<double>(solid.fronts.reached(cut)));
-      ends.insert(end);
-    });
   }
-  // The cells go before it runs: memory is tight here.
+  // What is not needed any more goes: memory is tight here.
   Collapsing collapsing = [&] {
     const CellSet cells = std::move(solid.cells);
     return Collapsing(complex, cells, context);
   }();
-  LineThinning thinning(solid, least_reach, std::move(ends), covered);
-  collapsing.run(thinning);
-  return thinning.tips();
+  std::vector<LimbTip> tips;
+  {
+    LineThinning thinning(solid, least_reach, std::move(ends), covered);
+    collapsing.run(thinning);
+    tips = thinning.tips();
+  }
+  return {std::move(tips), collapsing.cells()};
 }
 
 }  // namespace affskel::core

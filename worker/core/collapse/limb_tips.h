@@ -17,7 +17,13 @@ struct LimbTip {
   double width = 0;            ///< half the limb's width there, across its wider side, spacings
   double reach = 0;            ///< the greatest way along the line from there over the birth of an edge
   double length = 0;           ///< the greatest way, spacings
-  bool is_cut = false;         ///< it ends where an edge was taken out
+  bool is_cut = false;         ///< it ends at a lone edge that was taken out
+};
+
+/// What is found as lines are eaten.
+struct LimbTips {
+  std::vector<LimbTip> tips;  ///< by the order in which they were found
+  CellSet left;  ///< loops, closed surfaces, lines between them: what has no end to be eaten from
 };
 
 /// The tips of the limbs of a solid (isolation and removal of cells in thinning: Liu, Chambers, Letscher and
@@ -28,16 +34,11 @@ struct LimbTip {
 /// as long as wide.  From there on the line must have an edge whose way from there, and whose life, are `least_reach`
 /// times the time of its birth: the limb is longer than it is wide.  Its tip lies farther out, as long as the distance
 /// to the surface does not grow fast; of a flat end it lies in the middle between its corners.
-/// @param solid thinned, see thinned_solid(), by
-///   depth, per cube: its distance to the surface, spacings; many are alike;
-///   height, per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first, so that
-///   the lattice's order does not decide.
+/// @param solid see thinned_solid().
 /// @param cuts squares and edges that are taken out as soon as they have no coface: a limb with a loop has no tip.
-/// @return by the order in which they were found.
 /// A function of its arguments alone.
 /// @throws CoreError kCancelled when the context asks to stop.
-std::vector<LimbTip> limb_tips(ThinnedSolid solid, double least_reach,
-                               std::span<const DualComplex::Cell> cuts = {},
-                               ExecutionContext* context = nullptr);
+LimbTips limb_tips(ThinnedSolid solid, double least_reach, std::span<const DualComplex::Cell> cuts = {},
+                   ExecutionContext* context = nullptr);
 
 }  // namespace affskel::core

@@ -23,7 +23,7 @@ class SheetThinning {
   double level(Cell cell) const { return solid_.level(cell); }
   void wave_ends() { solid_.fronts.end_wave(); }
   void lost_coface(Cell cell, std::uint32_t, double now) {
-    if (DualComplex::dimension(cell) == 0) solid_.free(cell, now);
+    if (DualComplex::dimension(cell) == 0) solid_.note_freed(cell, now);
   }
   void removed(Cell cell, Cell coface, double, bool passed) {
     if (DualComplex::dimension(coface) == 2) solid_.cross(cell, coface, passed);

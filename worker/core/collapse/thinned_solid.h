@@ -38,7 +38,7 @@ struct ThinnedSolid {
   /// When a vertex lost the last of its edges that went with squares: in times of the collapse, which are told apart by
   /// Collapsing::kStep; what is later than 8191 spacings counts as that.
   double freed_at(DualComplex::Cell vertex) { return freed[vertex] * Collapsing::kStep; }
-  void free(DualComplex::Cell vertex, double now) {
+  void note_freed(DualComplex::Cell vertex, double now) {
     constexpr double kLast = std::numeric_limits<std::uint16_t>::max();
     std::uint16_t& last = freed[vertex];
     last = std::max(last, static_cast<std::uint16_t>(std::min(kLast, now / Collapsing::kStep)));
@@ -51,7 +51,9 @@ struct ThinnedSolid {
 /// Collapses a complex from the surface inwards at unit speed, but for lone edges, which go with the vertices at the ends
 /// of lines: whether and when they do changes nothing of the rest.
 /// A function of its arguments, which must outlive what it returns.
-/// @param depth, height see limb_tips().
+/// @param depth per cube: its distance to the surface, spacings; many are alike.
+/// @param height per cube, > 0, such as E: of those that are equally deep, and whose neighbours are, the lowest go first,
+///   so that the lattice's order does not decide.
 /// @throws CoreError kCancelled when the context asks to stop.
 ThinnedSolid thinned_solid(const DualComplex& complex, std::span<const float> depth,
                            std::span<const double> height, ExecutionContext* context = nullptr);

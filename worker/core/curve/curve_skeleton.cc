@@ -90,14 +90,14 @@ std::vector<Vec3> places_of(const Lattice& lattice, const std::vector<LimbTip>& 
   return places;
 }
 
-// An arm whose fingers the lattice joins to loops is as long as without these: so is the limb whose tip is nearest.
-void raise_reaches(const Lattice& lattice, const std::vector<LimbTip>& opened, std::vector<LimbTip>& limbs) {
+// A finger that the lattice joins to another is as long as without that: so is the limb whose tip is nearest.
+void raise_reaches(const Lattice& lattice, const std::vector<LimbTip>& cut, std::vector<LimbTip>& limbs) {
   if (limbs.empty()) return;
-  const std::vector<Vec3> tips = places_of(lattice, limbs), all = places_of(lattice, opened);
+  const std::vector<Vec3> tips = places_of(lattice, limbs), all = places_of(lattice, cut);
   const PointIndex index(tips);
   for (std::size_t n = 0; n < all.size(); ++n) {
     double& reach = limbs[index.find(all[n]).number].reach;
-    reach = std::max(reach, opened[n].reach);
+    reach = std::max(reach, cut[n].reach);
   }
 }
 

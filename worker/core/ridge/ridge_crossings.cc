@@ -24,15 +24,15 @@ RidgeCrossing crossing_at(const Lattice& lattice, const RidgeValues& values, con
   return crossing;
 }
 
-// Leaves those that count.
-void select(const RidgeValues& values, unsigned threads, std::deque<RidgeCrossing>& crossings) {
-  std::vector<char> counts(crossings.size());
+// Leaves those that are far enough from the surface.
+void keep_deep(const RidgeValues& values, unsigned threads, std::deque<RidgeCrossing>& crossings) {
+  std::vector<char> deep(crossings.size());
   parallel_ranges(threads, crossings.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) counts[n] = values.counts(crossings[n].at);
+    for (std::size_t n = begin; n < end; ++n) deep[n] = values.is_deep(crossings[n].at);
   });
   std::size_t kept = 0;
-  for (std::size_t n = 0; n < counts.size(); ++n)
-    if (counts[n]) crossings[kept++] = crossings[n];
+  for (std::size_t n = 0; n < deep.size(); ++n)
+    if (deep[n]) crossings[kept++] = crossings[n];
   crossings.resize(kept);
 }
 
@@ -55,7 +55,7 @@ std::deque<RidgeCrossing> ridge_crossings(const Lattice& lattice, const RidgeVal
         crossing_at(lattice, values, {x, axis, place}, y, t, (1 - t) * e_x + (t * turn) * e_y);
     if (values.is_strong(crossing.at)) result.push_back(crossing);
   });
-  select(values, threads, result);
+  keep_deep(values, threads, result);
   return result;
 }
 

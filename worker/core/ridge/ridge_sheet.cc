@@ -283,18 +283,17 @@ void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& fi
   basis.topology = betti_numbers(complex, context);
   ThinnedSolid thinned = thinned_solid(complex, basis.radius, field.erosion, context);
   CellSet left = collapsed(complex, thinned.cells, {}, context);
-  constexpr double kReach = RidgeConstants::limb_reach;
-  if (const auto noisy = noisy_solid(solid, lattice, basis)) {
-    BoredCells bored = bored_cells(*noisy, left, {}, context);
-    left = std::move(bored.left);
-    basis.limbs = limb_tips(std::move(thinned), kReach, bored.cells, context);
-  } else {
-    std::vector<DualComplex::Cell> cuts;
-    if (basis.topology.holes > 0) {
-      CellSet filled = left;
-      cuts = fill_tunnels(solid, lattice, complex, {}, basis.radius, filled, context).edges;
-    }
-    basis.limbs = limb_tips(std::move(thinned), kReach, cuts, context);
+  const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
+  std::vector<DualComplex::Cell> cuts;
+  if (noisy)
+    cuts = bored_cells(*noisy, left, {}, context).cells;
+  else if (CellSet filled = left; basis.topology.holes > 0)
+    cuts = fill_tunnels(solid, lattice, complex, {}, basis.radius, filled, context).edges;
+  LimbTips found = limb_tips(std::move(thinned), RidgeConstants::limb_reach, cuts, context);
+  basis.limbs = std::move(found.tips);
+  if (noisy) {
+    left = std::move(found.left);
+  } else {  // the skeleton has the loops
     const auto cut = std::ranges::stable_partition(basis.limbs, std::logical_not(), &LimbTip::is_cut);
     basis.cut_limbs.assign(cut.begin(), cut.end());
     basis.limbs.erase(cut.begin(), cut.end());

@@ -32,7 +32,8 @@ struct RidgeBasis {
   std::vector<float> radius = {};     ///< per sample point: see surface_distance()
   std::vector<float> thickness = {};  ///< see section_radii(); empty where no surface crosses itself
   std::vector<LimbTip> limbs = {};    ///< of the solid, whatever is anchored
-  /// Where the lattice has tunnels that the solid lacks: the limbs that end where these are opened.
+  /// Where the lattice has tunnels that the solid lacks: limbs beside these, which end where a tunnel is opened.  Of a
+  /// noisy solid none: its skeleton is opened, too.
   std::vector<LimbTip> cut_limbs = {};
   /// What thinning leaves: the squares of closed surfaces, the edges of loops and of lines between them.
   std::vector<DualComplex::Cell> core = {};

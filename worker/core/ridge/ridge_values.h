@@ -56,9 +56,10 @@ class RidgeValues {
   /// What a strength is that of.
   enum class Of { kSurface, kCurve };
 
+  /// Whether a vertex has the least strength that is asked for.
   bool is_strong(const SheetVertex& vertex) const { return vertex.strength >= min_strength_; }
-
-  /// Whether a vertex is strong enough, and far enough from the surface.
+  /// Whether it is far enough from the surface.  Takes a search.
+  bool is_deep(const SheetVertex& vertex) const;
   bool counts(const SheetVertex& vertex) const { return is_strong(vertex) && is_deep(vertex); }
 
   /// The vertex at `position` that has the weighted mean of the points' values.
@@ -70,7 +71,6 @@ class RidgeValues {
 
  private:
   double least_radius(const SheetVertex& vertex) const;
-  bool is_deep(const SheetVertex& vertex) const;
   bool is_deep(const SheetVertex& vertex, const DistanceToMesh& surface) const;
 
   const FrameField& field_;

@@ -33,7 +33,7 @@ std::vector<Vec3> tips_of(const Mesh& mesh, double spacing, const Vec3& uphill =
     height[rank] += 10 + dot(uphill, places.at(i, j, k));
   });
   std::vector<Vec3> result;
-  for (const LimbTip& tip : limb_tips(thinned_solid(complex, depth, height), 1)) {
+  for (const LimbTip& tip : limb_tips(thinned_solid(complex, depth, height), 1).tips) {
     const std::uint32_t cube = DualComplex::cube_of(tip.vertex);
     const LatticePlace at = lattice_places(solid.lattice, std::vector<std::uint32_t>{cube})[0];
     Vec3 place = places.at(at[0], at[1], at[2]);
@@ -63,7 +63,7 @@ std::vector<double> reaches(const Mesh& mesh, double spacing) {
     const DualComplex complex(solid.lattice);
     const std::vector<float> depth = surface_distance(solid.lattice);
     const std::vector<double> height(depth.begin(), depth.end());
-    for (const LimbTip& tip : limb_tips(thinned_solid(complex, depth, height), 0.9))
+    for (const LimbTip& tip : limb_tips(thinned_solid(complex, depth, height), 0.9).tips)
       result.push_back(tip.reach);
   }
   return result;
@@ -136,10 +136,14 @@ TEST(LimbTips, OfALimbWithALoopAreThoseWhereItIsCut) {
   const std::vector<float> depth = surface_distance(solid.lattice);
   const std::vector<double> height(depth.begin(), depth.end());
   const ThinnedSolid thinned = thinned_solid(complex, depth, height);
-  EXPECT_EQ(limb_tips(thinned, 1).size(), 1U);
+  EXPECT_EQ(limb_tips(thinned, 1).tips.size(), 1U);
   const std::vector<DualComplex::Cell> loop = loop_of(complex, thinned);
   ASSERT_GT(loop.size(), 20U);
-  EXPECT_GE(limb_tips(thinned, 1, std::vector{loop[loop.size() / 2]}).size(), 2U);
+  const LimbTips cut = limb_tips(thinned, 1, std::vector{loop[loop.size() / 2]});
+  EXPECT_GE(cut.tips.size(), 2U);
+  bool empty = true;
+  cut.left.for_each([&](DualComplex::Cell cell) { empty = empty && DualComplex::dimension(cell) == 0; });
+  EXPECT_TRUE(empty);
 }
 
 // A fork whose prongs a thread joins, but for a gap in its middle.
@@ -168,12 +172,13 @@ TEST(LimbTips, OfWhatIsOpenedAreThoseOfWhatIsOpen) {
     const ThinnedSolid thinned = thinned_solid(complex, depth, height);
     std::vector<DualComplex::Cell> cuts;
     if (is_opened) {
-      EXPECT_EQ(limb_tips(thinned, 0.9).size(), 1U);
+      EXPECT_EQ(limb_tips(thinned, 0.9).tips.size(), 1U);
       const std::vector<DualComplex::Cell> loop = loop_of(complex, thinned);
       cuts = {*std::ranges::min_element(loop, {}, from_middle)};
     }
-    const std::vector<LimbTip>& found = tips[is_opened] = limb_tips(thinned, 0.9, cuts);
+    const std::vector<LimbTip>& found = tips[is_opened] = limb_tips(thinned, 0.9, cuts).tips;
     ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(std::ranges::count_if(found, &LimbTip::is_cut), is_opened ? 2 : 0);
     EXPECT_EQ(std::ranges::count_if(found, [&](const LimbTip& tip) { return from_middle(tip.vertex) < 1.2; }),
               2);
   }

@@ -29,7 +29,7 @@ TEST(RidgeBasis, OfAFineLatticeHasWhatEachStepGives) {
                 basis.derivatives[p].gradient == derivatives[p].gradient)
         << p;
   const std::vector<LimbTip> limbs =
-      limb_tips(thinned_solid(basis.complex, basis.radius, field.erosion), RidgeConstants::limb_reach);
+      limb_tips(thinned_solid(basis.complex, basis.radius, field.erosion), RidgeConstants::limb_reach).tips;
   ASSERT_FALSE(limbs.empty());
   ASSERT_EQ(basis.limbs.size(), limbs.size());
   for (std::size_t n = 0; n < limbs.size(); ++n) EXPECT_EQ(basis.limbs[n].vertex, limbs[n].vertex);

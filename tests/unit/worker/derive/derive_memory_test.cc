@@ -37,7 +37,9 @@ void expect_at_most(std::uint64_t bytes, const PreparedJob& prepared, const Task
 TEST(PartsMemory, IsBounded) {
   const PreparedJob prepared = body();
   const std::string field = finished_field(prepared);
-  expect_at_most(kPartsBytes, prepared, [&] { EXPECT_GT(parts_of(prepared, field).parts_size(), 3); });
+  for (const unsigned threads : {1U, 4U})
+    expect_at_most(kPartsBytes, prepared,
+                   [&] { EXPECT_GT(parts_of(prepared, field, 0, threads).parts_size(), 3); });
 }
 
 TEST(RidgeMemory, IsBounded) {
