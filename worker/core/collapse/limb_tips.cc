@@ -179,8 +179,13 @@ class LineThinning {
            .lead = birth,
            .order = begun_++});
     }
-    if (is_cut && !lines_[number].begun) lines_[number].tip.is_cut = true;
+    if (is_cut) lead_from_cut(lines_[number]);
     return number;
+  }
+
+  // What is a limb without the cut stays one.
+  void lead_from_cut(Line& line) const {
+    line.tip.is_cut = line.tip.is_cut || line.tip.reach < least_reach_;
   }
 
   // Where a line that is through has left its place, if one has: hardly one in ten is under way at a time.
@@ -261,6 +266,7 @@ class LineThinning {
     if (number == DualComplex::kNone) return;
     const Line& other = lines_[number];
     Line& line = lines_[last];
+    if (other.tip.is_cut) lead_from_cut(line);
     if (!line.begun && !other.begun && other.length() >= kSameEnd * line.length()) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         line.others[axis] += other.tip_place[axis] + other.others[axis];

@@ -167,7 +167,7 @@ TEST(CurveSkeleton, AnArmIsAsLongWhetherTheLatticeJoinsItsFingers) {
   const Curved solid(mitten(12), 0.097, "triangles");
   ASSERT_EQ(solid.ridge().filled.edges.size(), 1U);
   const CurveSkeleton curve = solid.at(4);
-  EXPECT_EQ(curve.ends, 3U) << "the fingers are mirror images, both more than four times as long as wide";
+  EXPECT_EQ(curve.ends, 2U);
   double low = 0, high = 0;
   for (const SheetVertex& vertex : curve.vertices) {
     low = std::min(low, solid.place(vertex).x);
