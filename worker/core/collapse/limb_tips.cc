@@ -184,9 +184,7 @@ class LineThinning {
   }
 
   // What is a limb without the cut stays one.
-  void lead_from_cut(Line& line) const {
-    line.tip.is_cut = line.tip.is_cut || line.tip.reach < least_reach_;
-  }
+  void lead_from_cut(Line& line) const { line.tip.is_cut = line.tip.is_cut || line.tip.reach < least_reach_; }
 
   // Where a line that is through has left its place, if one has: hardly one in ten is under way at a time.
   std::uint32_t put(const Line& line) {

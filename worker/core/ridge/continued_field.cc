@@ -93,8 +93,10 @@ class Continuation {
       nearest_[at] = kDeep;
       result_[at] = static_cast<float>(value(rank));
     });
-    surface_.reserve(asked.surface.size());
-    for (const auto& [place, rank] : asked.surface) {
+    const std::vector<SurfacePoint> surface =
+        std::move(asked.surface);  // else it would live until all is done
+    surface_.reserve(surface.size());
+    for (const auto& [place, rank] : surface) {
       nearest_[number(band_, place)] = static_cast<std::uint32_t>(surface_.size());
       surface_.push_back({place, value(rank), gradient(rank)});
       front_.push_back(place);

@@ -285,10 +285,12 @@ void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& fi
   CellSet left = collapsed(complex, thinned.cells, {}, context);
   const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
   std::vector<DualComplex::Cell> cuts;
-  if (noisy)
+  if (noisy) {
     cuts = bored_cells(*noisy, left, {}, context).cells;
-  else if (CellSet filled = left; basis.topology.holes > 0)
+  } else if (basis.topology.holes > 0) {
+    CellSet filled = left;
     cuts = fill_tunnels(solid, lattice, complex, {}, basis.radius, filled, context).edges;
+  }
   LimbTips found = limb_tips(std::move(thinned), RidgeConstants::limb_reach, cuts, context);
   basis.limbs = std::move(found.tips);
   if (noisy) {
