@@ -1,87 +1,70 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
-#include "core/base/none.h"
 #include "core/collapse/dual_complex.h"
 
 namespace affskel::core {
 
-/// A value for each cell of one dimension, lines or points: in arrays where its name is the usual one.
+/// A value for each cell at some places, by its own name.  Cells at no lower end of a cube, which are its own, come first;
+/// behind them those that few cubes own beside these.
 template <class Value>
 class CellValues {
  public:
-  CellValues(const DualComplex& complex, int dimension, Value none)
-      : per_cube_(dimension == 0 ? 1 : 3), none_(none), usual_(per_cube_ * complex.cubes(), none) {}
-
-  Value& operator[](DualComplex::Cell cell) {
-    const std::uint32_t place = DualComplex::place_of(cell);
-    const std::size_t first = per_cube_ * DualComplex::cube_of(cell);
-    for (std::size_t n = 0; n < 3; ++n)
-      if (place == DualComplex::kUpperVertex - (per_cube_ == 1 ? 0 : DualComplex::kWeight[n]))
-        return usual_[first + n];
-    return others_.try_emplace(cell, none_).first->second;
-  }
-
- private:
-  std::size_t per_cube_;
-  Value none_;
-  std::vector<Value> usual_;
-  std::unordered_map<DualComplex::Cell, Value> others_;
-};
-
-/// A byte for each cell, by its own name, first 0.  Cells at no lower end of a cube, which are its own, come first; few
-/// groups of cubes own others, and have room for these behind them.
-class CellBytes {
- public:
-  explicit CellBytes(const DualComplex& complex) {
-    std::size_t end = kUpper * std::size_t{complex.cubes()};
-    for (std::uint32_t first = 0; first < complex.cubes(); first += kGroup) {
-      std::uint32_t own = 0;
-      for (std::uint32_t cube = first; cube < std::min(first + kGroup, complex.cubes()); ++cube)
-        own |= complex.own_places(cube);
-      others_.push_back(end);
-      if ((own & ~DualComplex::kUpperPlaces) != 0) end += kGroup * kOther;
+  /// @param places a set, such as those of all cells of a dimension: see DualComplex::places_of_dimension().
+  /// @param none every cell's at first.
+  CellValues(const DualComplex& complex, std::uint32_t places, Value none)
+      : complex_(&complex), others_(places & ~DualComplex::kUpperPlaces) {
+    for (std::uint32_t place = 0; place < slot_.size(); ++place) {
+      slot_[place] = static_cast<std::uint8_t>(per_cube_);
+      if ((places & DualComplex::kUpperPlaces & 1U << place) != 0) ++per_cube_;
     }
-    bytes_.assign(end, 0);
+    std::size_t end = per_cube_ * std::size_t{complex.cubes()};
+    const auto owners = complex.other_owners();
+    for (std::size_t owner = 0; owner < owners.size(); ++owner) {
+      if (owner % kTogether == 0) first_.push_back(end);
+      end += others_of(owners[owner], kPlaces);
+    }
+    values_.assign(end, none);
   }
 
-  std::uint8_t& operator[](DualComplex::Cell cell) { return bytes_[index(cell)]; }
-  std::uint8_t operator[](DualComplex::Cell cell) const { return bytes_[index(cell)]; }
+  Value& operator[](DualComplex::Cell cell) { return values_[index(cell)]; }
+  Value operator[](DualComplex::Cell cell) const { return values_[index(cell)]; }
 
  private:
-  static constexpr std::uint32_t kGroup = 4;  // cubes
-  static constexpr std::uint32_t kUpper = 8;  // places of a cube that are at no lower end
-  static constexpr std::uint32_t kOther = 27 - kUpper;
-
-  // Of each place: those at no lower end first.
-  static constexpr std::array<std::uint8_t, 27> kSlot = [] {
-    std::array<std::uint8_t, 27> result{};
-    std::uint8_t upper = 0, other = kUpper;
-    for (std::uint32_t place = 0; place < 27; ++place)
-      result[place] = (DualComplex::kUpperPlaces >> place & 1U) != 0 ? upper++ : other++;
-    return result;
-  }();
+  static constexpr std::uint32_t kPlaces = 27;
+  static constexpr std::uint32_t kTogether = 4;  // owners of others that one number is kept for
 
   std::size_t index(DualComplex::Cell cell) const {
-    const std::uint32_t cube = DualComplex::cube_of(cell), slot = kSlot[DualComplex::place_of(cell)];
-    if (slot < kUpper) return kUpper * std::size_t{cube} + slot;
-    return others_[cube / kGroup] + kOther * (cube % kGroup) + (slot - kUpper);
+    const std::uint32_t cube = DualComplex::cube_of(cell), place = DualComplex::place_of(cell);
+    if ((DualComplex::kUpperPlaces >> place & 1U) != 0) return per_cube_ * std::size_t{cube} + slot_[place];
+    const auto owners = complex_->other_owners();
+    const std::uint32_t owner = complex_->other_owner(cube);
+    std::size_t at = first_[owner / kTogether] + others_of(owners[owner], place);
+    for (std::uint32_t n = owner - owner % kTogether; n < owner; ++n) at += others_of(owners[n], kPlaces);
+    return at;
+  }
+  // How many there are among what one owns, before a place.
+  std::size_t others_of(std::uint32_t own, std::uint32_t place) const {
+    return static_cast<std::size_t>(std::popcount(own & others_ & ((1U << place) - 1)));
   }
 
-  std::vector<std::size_t> others_;  // where those of a group begin
-  std::vector<std::uint8_t> bytes_;
+  const DualComplex* complex_;
+  std::uint32_t others_;                      // the places that are at a lower end
+  std::size_t per_cube_ = 0;                  // those that are not
+  std::array<std::uint8_t, kPlaces> slot_{};  // where they come
+  std::vector<std::size_t> first_;            // where the others of so many that own some begin
+  std::vector<Value> values_;
 };
 
 /// Cells of a complex.
 class CellSet {
  public:
+  CellSet() = default;  ///< of no complex
   explicit CellSet(const DualComplex& complex) : bits_(complex.cubes(), 0) {}
 
   bool has(DualComplex::Cell cell) const {

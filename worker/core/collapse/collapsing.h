@@ -31,7 +31,7 @@ class Collapsing {
   /// Of all cells of a complex.
   /// @throws CoreError kCancelled, here and in run(), when the context asks to stop.
   Collapsing(const DualComplex& complex, ExecutionContext* context)
-      : complex_(complex), context_(context), states_(complex) {
+      : complex_(complex), context_(context), states_(complex, DualComplex::kAllPlaces, 0) {
     StopCheck stop(context);
     complex.for_each_cell([&](Cell cell) {
       state(cell) = static_cast<std::uint8_t>(kThere | complex.coface_count(cell));
@@ -41,7 +41,7 @@ class Collapsing {
 
   /// Of some, closed under taking boundaries.
   Collapsing(const DualComplex& complex, const CellSet& cells, ExecutionContext* context)
-      : complex_(complex), context_(context), states_(complex) {
+      : complex_(complex), context_(context), states_(complex, DualComplex::kAllPlaces, 0) {
     cells.for_each([&](Cell cell) {
       state(cell) |= kThere;
       complex_.for_each_face(cell, [&](Cell face) { ++state(face); });
@@ -214,8 +214,8 @@ class Collapsing {
 
   const DualComplex& complex_;
   ExecutionContext* context_;
-  CellBytes states_;         // at own names: these, and how many cofaces
-  BucketQueue<Pair> queue_;  // free when they came
+  CellValues<std::uint8_t> states_;  // at own names: these, and how many cofaces
+  BucketQueue<Pair> queue_;          // free when they came
 };
 
 }  // namespace affskel::core

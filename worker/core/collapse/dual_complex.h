@@ -63,6 +63,14 @@ class DualComplex {
   static std::uint32_t across(std::uint32_t place) { return kAcross[place]; }
   static int dimension(std::uint32_t place) { return kDimension[place]; }
   static int dimension(Cell cell) { return kDimension[place_of(cell)]; }
+  /// All places (a set) of a dimension.
+  static constexpr std::uint32_t places_of_dimension(std::uint32_t dimension) {
+    std::uint32_t places = 0;
+    for (std::uint32_t place = 0; place < 27; ++place)
+      if (kDimension[place] == dimension) places |= 1U << place;
+    return places;
+  }
+  static constexpr std::uint32_t kAllPlaces = (1U << 27) - 1;
 
   /// The own name of the cell at a place of a cube.
   Cell cell(std::uint32_t cube, std::uint32_t place) const {
@@ -80,10 +88,16 @@ class DualComplex {
 
   /// The places (a set) of a cube that name a cell by its own name.
   std::uint32_t own_places(std::uint32_t cube) const {
+    const bool has_others = (groups_[cube / 32].others >> cube % 32 & 1U) != 0;
+    return has_others ? own_[other_owner(cube)] : kUpperPlaces;
+  }
+  /// Of those cubes that own other places than the upper ones, as few do.
+  std::span<const std::uint32_t> other_owners() const { return own_; }
+  /// Which of them a cube is that does.
+  std::uint32_t other_owner(std::uint32_t cube) const {
     const Group& group = groups_[cube / 32];
-    const std::uint32_t bit = 1U << cube % 32;
-    if ((group.others & bit) == 0) return kUpperPlaces;
-    return own_[group.before + static_cast<std::uint32_t>(std::popcount(group.others & (bit - 1)))];
+    const std::uint32_t before = group.others & ((1U << cube % 32) - 1);
+    return group.before + static_cast<std::uint32_t>(std::popcount(before));
   }
   bool is_own(std::uint32_t cube, std::uint32_t place) const { return (own_places(cube) >> place & 1U) != 0; }
 

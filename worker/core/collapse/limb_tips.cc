@@ -48,7 +48,7 @@ class LineThinning {
         least_reach_(least_reach),
         cut_ends_(std::move(cut_ends)),
         cuts_(cuts.begin(), cuts.end()),
-        line_at_(complex_, 0, DualComplex::kNone) {}
+        line_at_(complex_, DualComplex::places_of_dimension(0), DualComplex::kNone) {}
 
   std::vector<LimbTip> tips() {
     for (Line& line : lines_) keep_tip(line);

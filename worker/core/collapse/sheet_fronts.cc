@@ -46,7 +46,7 @@ double front_time(double a, double b, double u, double v) {
 }  // namespace
 
 SheetFronts::SheetFronts(const DualComplex& complex, std::span<const float> depth)
-    : complex_(complex), depth_(depth), reached_(complex, 1, 0) {}
+    : complex_(complex), depth_(depth), reached_(complex, DualComplex::places_of_dimension(1), 0) {}
 
 // How fast the depth grows at a cube, by differences over two spacings.
 Vec3 SheetFronts::slope_at(std::uint32_t cube) const {

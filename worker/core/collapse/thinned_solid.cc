@@ -48,10 +48,10 @@ ThinnedSolid thinned_solid(const DualComplex& complex, std::span<const float> de
   ThinnedSolid solid{.complex = &complex,
                      .depth = depth,
                      .height = height,
-                     .cells = CellSet(complex),
+                     .cells = {},
                      .fronts = SheetFronts(complex, depth),
-                     .bared = CellValues<float>(complex, 0, 0),
-                     .freed = CellValues<std::uint16_t>(complex, 0, 0),
+                     .bared = CellValues<float>(complex, DualComplex::places_of_dimension(0), 0),
+                     .freed = CellValues<std::uint16_t>(complex, DualComplex::places_of_dimension(0), 0),
                      .slight = 1e-3 / *std::max_element(height.begin(), height.end())};
   Collapsing collapsing(complex, context);
   SheetThinning thinning(solid);

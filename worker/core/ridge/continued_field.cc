@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <limits>
 #include <utility>
 
@@ -16,8 +17,6 @@ constexpr std::uint32_t kUnknown = 0xFFFFFFFFU;
 struct Place {
   std::int32_t i, j, k;
 };
-
-constexpr std::uint8_t kInside = 0x80;  // a place asked for that is a sample point
 
 // The neighbours of a place in a band, in lattice order.
 template <class Visit>
@@ -38,53 +37,11 @@ std::size_t number(const RowBand& band, const Place& place) {
   return static_cast<std::size_t>(band.at(place.i, place.j, place.k));
 }
 
-// A sample point that has a place outside beside it.
-struct SurfacePoint {
-  Place place;
-  std::uint32_t rank;
-};
-
-// What is asked for, and the points of the surface by rank.
-struct Asked {
-  RowBand band;
-  std::vector<SurfacePoint> surface;
-};
-
-// From reach + 1 at the sample points down, n - 1 at the places beside one of n; those above 0 are asked for.
-Asked find_asked(const Lattice& lattice, const RowBand& wide, std::span<const std::uint8_t> reach) {
-  std::vector<std::uint8_t> asked(wide.places(), 0);
-  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-    asked[number(wide, {i, j, k})] = static_cast<std::uint8_t>(kInside | (reach[rank] + 1));
-  });
-  std::vector<SurfacePoint> surface;
-  std::array<std::vector<Place>, kInside> asking;  // by n: most points lie among such as ask for as much
-  for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
-    bool at_surface = false, asks = false;
-    for_each_neighbour(wide, {i, j, k}, [&](const Place&, std::size_t at) {
-      at_surface = at_surface || (asked[at] & kInside) == 0;
-      asks = asks || (asked[at] & ~kInside) < reach[rank];
-    });
-    if (asks) asking[reach[rank] + 1U].push_back({i, j, k});
-    if (at_surface) surface.push_back({{i, j, k}, rank});
-  });
-  for (std::size_t n = asking.size(); n-- > 1; asking[n] = {}) {
-    for (const Place& from : asking[n]) {
-      if ((asked[number(wide, from)] & ~kInside) > static_cast<int>(n)) continue;  // it has asked for more
-      for_each_neighbour(wide, from, [&](const Place& place, std::size_t at) {
-        if ((asked[at] & ~kInside) + 1 >= static_cast<int>(n)) return;
-        asked[at] = static_cast<std::uint8_t>((asked[at] & kInside) | (n - 1));
-        asking[n - 1].push_back(place);
-      });
-    }
-  }
-  return {RowBand(wide, asked), std::move(surface)};
-}
-
 class Continuation {
  public:
-  Continuation(const Lattice& lattice, Asked asked, const std::function<double(std::uint32_t)>& value,
+  Continuation(const Lattice& lattice, RowBand band, const std::function<double(std::uint32_t)>& value,
                const std::function<Vec3(std::uint32_t)>& gradient, unsigned threads)
-      : band_(std::move(asked.band)),
+      : band_(std::move(band)),
         threads_(threads),
         nearest_(band_.places(), kUnknown),
         result_(band_.places(), 0.0F) {
@@ -93,14 +50,24 @@ class Continuation {
       nearest_[at] = kDeep;
       result_[at] = static_cast<float>(value(rank));
     });
-    const std::vector<SurfacePoint> surface =
-        std::move(asked.surface);  // else it would live until all is done
-    surface_.reserve(surface.size());
-    for (const auto& [place, rank] : surface) {
-      nearest_[number(band_, place)] = static_cast<std::uint32_t>(surface_.size());
-      surface_.push_back({place, value(rank), gradient(rank)});
-      front_.push_back(place);
-    }
+    std::size_t at_surface = 0;
+    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t) {
+      bool is_deep = true;
+      for_each_neighbour(band_, {i, j, k}, [&](const Place&, std::size_t at) {
+        is_deep = is_deep && nearest_[at] != kUnknown;
+      });
+      if (is_deep) return;
+      nearest_[number(band_, {i, j, k})] = kPending;
+      ++at_surface;
+    });
+    surface_.reserve(at_surface);
+    for_each_point(lattice, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t rank) {
+      std::uint32_t& nearest = nearest_[number(band_, {i, j, k})];
+      if (nearest != kPending) return;
+      nearest = static_cast<std::uint32_t>(surface_.size());
+      surface_.push_back({{i, j, k}, value(rank), gradient(rank)});
+      front_.push_back({i, j, k});
+    });
   }
 
   ContinuedField run() {
@@ -112,7 +79,7 @@ class Continuation {
   // One layer of places further out.  The new layer is marked only when it is done: a place never looks at
   // those of its own layer, so that their order does not matter.
   void advance() {
-    std::vector<Place> next;
+    std::deque<Place> next;
     for (const Place& from : front_) {
       for_each_neighbour(band_, from, [&](const Place& place, std::size_t at) {
         if (nearest_[at] != kUnknown) return;
@@ -175,7 +142,7 @@ class Continuation {
   std::vector<std::uint32_t> nearest_;  // per place: of the surface, or of what is no place for it
   std::vector<float> result_;
   std::vector<Known> surface_;
-  std::vector<Place> front_;
+  std::deque<Place> front_;
 };
 
 }  // namespace
@@ -183,8 +150,7 @@ class Continuation {
 ContinuedField continued_field(const Lattice& lattice, const std::function<double(std::uint32_t)>& value,
                                const std::function<Vec3(std::uint32_t)>& gradient,
                                std::span<const std::uint8_t> reach, unsigned threads) {
-  const RowBand wide(lattice, std::max(1, std::int32_t{*std::max_element(reach.begin(), reach.end())}));
-  return Continuation(lattice, find_asked(lattice, wide, reach), value, gradient, threads).run();
+  return Continuation(lattice, RowBand(lattice, reach), value, gradient, threads).run();
 }
 
 }  // namespace affskel::core

@@ -1,59 +1,60 @@
 #include "core/ridge/row_band.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/lattice/lattice_points.h"
 
 namespace affskel::core {
 
-RowBand::RowBand(const Lattice& lattice, std::int32_t margin)
-    : margin_(margin),
-      ends_{static_cast<std::int32_t>(lattice.grid.dims[0]) + margin,
-            static_cast<std::int32_t>(lattice.grid.dims[1]) + margin} {
-  constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::max();
-  const auto width = static_cast<std::size_t>(ends_[1] + margin_);
-  const std::size_t count = static_cast<std::size_t>(ends_[0] + margin_) * width;
-  std::vector<Row> hull(count, Row{kLow, -kLow, 0});
-  const auto widen = [](Row& row, const Row& by, std::int32_t steps) {
-    row.begin = std::min(row.begin, by.begin == kLow ? kLow : by.begin - steps);
-    row.end = std::max(row.end, by.begin == kLow ? -kLow : by.end + steps);
+// Margins are gone through from the widest down, a step at a time: what they ask for by then grows by that step.
+template <class MarginOf>
+RowBand::RowBand(const Lattice& lattice, std::int32_t widest, const MarginOf& margin_of)
+    : margin_(widest),
+      ends_{static_cast<std::int32_t>(lattice.grid.dims[0]) + widest,
+            static_cast<std::int32_t>(lattice.grid.dims[1]) + widest},
+      rows_(static_cast<std::size_t>(ends_[0] + widest) * static_cast<std::size_t>(ends_[1] + widest)) {
+  struct Stretch {
+    std::size_t row;
+    Row places;
   };
+  std::vector<std::vector<Stretch>> of_margin(static_cast<std::size_t>(widest) + 1);
   for (const LatticeRun& run : lattice.axis[2].runs) {
-    const auto k = static_cast<std::int32_t>(run.start[2]);
-    widen(hull[index(static_cast<std::int32_t>(run.start[0]), static_cast<std::int32_t>(run.start[1]))],
-          {k, k + static_cast<std::int32_t>(run.length), 0}, margin);
-  }
-  // Along j, then along i.
-  std::vector<Row> along_j(count, Row{kLow, -kLow, 0});
-  for (std::int32_t i = 0; i < ends_[0] - margin_; ++i) {
-    for (std::int32_t j = 0; j < ends_[1] - margin_; ++j) {
-      const Row& by = hull[index(i, j)];
-      if (by.begin == kLow) continue;
-      for (std::int32_t m = -margin_; m <= margin_; ++m) widen(along_j[index(i, j + m)], by, 0);
+    const std::size_t row =
+        index(static_cast<std::int32_t>(run.start[0]), static_cast<std::int32_t>(run.start[1]));
+    for (std::uint32_t begin = 0, end = 0; begin < run.length; begin = end) {
+      const std::uint8_t margin = margin_of(run.first + begin);
+      while (end < run.length && margin_of(run.first + end) == margin) ++end;
+      of_margin[margin].push_back(
+          {row,
+           {static_cast<std::int32_t>(run.start[2] + begin), static_cast<std::int32_t>(run.start[2] + end)}});
     }
   }
-  rows_.assign(count, Row{kLow, -kLow, 0});
-  for (std::int32_t i = 0; i < ends_[0] - margin_; ++i) {
-    for (std::int32_t j = -margin_; j < ends_[1]; ++j) {
-      const Row& by = along_j[index(i, j)];
-      if (by.begin == kLow) continue;
-      for (std::int32_t m = -margin_; m <= margin_; ++m) widen(rows_[index(i + m, j)], by, 0);
-    }
+  for (std::size_t margin = of_margin.size(); margin-- > 0;) {
+    for (const auto& [row, places] : of_margin[margin]) rows_[row].include(places);
+    if (margin > 0) widen_by_one();
   }
-  for (Row& row : rows_)
-    if (row.begin == kLow) row = Row{};
   number_places();
 }
 
-RowBand::RowBand(const RowBand& wide, const std::vector<std::uint8_t>& wanted)
-    : margin_(wide.margin_), ends_{wide.ends_[0], wide.ends_[1]}, rows_(wide.rows_) {
-  for (Row& row : rows_) {
-    const std::uint8_t* const at = wanted.data() + row.offset;
-    while (!row.empty() && at[row.begin] == 0) ++row.begin;
-    while (!row.empty() && at[row.end - 1] == 0) --row.end;
+RowBand::RowBand(const Lattice& lattice, std::uint8_t margin)
+    : RowBand(lattice, margin, [&](std::uint32_t) { return margin; }) {}
+
+RowBand::RowBand(const Lattice& lattice, std::span<const std::uint8_t> margin)
+    : RowBand(lattice, margin.empty() ? 0 : *std::ranges::max_element(margin),
+              [&](std::uint32_t p) { return margin[p]; }) {}
+
+void RowBand::widen_by_one() {
+  for (Row& row : rows_)
+    if (!row.empty()) row = {row.begin - 1, row.end + 1};
+  for (const std::size_t beside : {index(0, 1) - index(0, 0), index(1, 0) - index(0, 0)}) {
+    const std::vector<Row> before = rows_;
+    for (std::size_t n = 0; n < before.size(); ++n) {
+      if (before[n].empty())
+        continue;  // nor is one at the end of the other axis, which has no neighbour there
+      rows_[n - beside].include(before[n]);
+      rows_[n + beside].include(before[n]);
+    }
   }
-  number_places();
 }
 
 void RowBand::number_places() {

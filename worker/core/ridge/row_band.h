@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/none.h"
@@ -11,8 +13,8 @@
 
 namespace affskel::core {
 
-/// The places of a lattice that lie within `margin` steps, along each axis, of the hull of the sample points
-/// of a row: rows (i, j) of consecutive k.  Numbers the places, so that arrays over them hold a solid and
+/// The places of a lattice that lie within a margin, so many steps along each axis, of a sample point, and what is
+/// between them in a row: rows (i, j) of consecutive k.  Numbers the places, so that arrays over them hold a solid and
 /// what lies round it without holding the lattice's whole box.
 class RowBand {
  public:
@@ -21,16 +23,19 @@ class RowBand {
     std::int32_t begin = 0, end = 0;  ///< equal: the row has no places
     std::int64_t offset = 0;
     bool empty() const { return begin >= end; }
+    void include(const Row& other) {
+      begin = empty() ? other.begin : std::min(begin, other.begin);
+      end = std::max(end, other.end);
+    }
   };
 
   /// Not in the band.
   static constexpr std::int64_t kNone = -1;
 
-  RowBand(const Lattice& lattice, std::int32_t margin);
+  RowBand(const Lattice& lattice, std::uint8_t margin);
 
-  /// The hull of the places of a row that are wanted, of each row of another band.
-  /// @param wanted per place of that one: not 0.
-  RowBand(const RowBand& wide, const std::vector<std::uint8_t>& wanted);
+  /// @param margin per sample point.
+  RowBand(const Lattice& lattice, std::span<const std::uint8_t> margin);
 
   std::size_t places() const { return places_; }
 
@@ -71,6 +76,10 @@ class RowBand {
            static_cast<std::size_t>(j + margin_);
   }
 
+  template <class MarginOf>
+  RowBand(const Lattice& lattice, std::int32_t widest, const MarginOf& margin_of);
+
+  void widen_by_one();
   void number_places();
 
   std::int32_t margin_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -12,20 +13,25 @@
 namespace affskel::core {
 namespace {
 
-TEST(CellBytes, AreOneForEachCell) {
+TEST(CellValues, AreOneForEachCell) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const LatticeSolid solid(random_solid(seed), 0.15);
     const DualComplex complex(solid.lattice);
-    CellBytes bytes(complex);
-    std::set<const std::uint8_t*> places;
-    std::size_t cells = 0;
-    complex.for_each_cell([&](DualComplex::Cell cell) {
-      EXPECT_EQ(bytes[cell], 0);
-      bytes[cell] = 1;
-      places.insert(&bytes[cell]);
-      ++cells;
-    });
-    EXPECT_EQ(places.size(), cells);
+    for (const std::uint32_t of : {DualComplex::kAllPlaces, DualComplex::places_of_dimension(0),
+                                   DualComplex::places_of_dimension(1)}) {
+      CellValues<std::uint16_t> values(complex, of, 7);
+      std::set<const std::uint16_t*> places;
+      std::size_t cells = 0;
+      complex.for_each_cell([&](DualComplex::Cell cell) {
+        if ((of >> DualComplex::place_of(cell) & 1U) == 0) return;
+        EXPECT_EQ(values[cell], 7);
+        values[cell] = 1;
+        places.insert(&values[cell]);
+        ++cells;
+      });
+      EXPECT_EQ(places.size(), cells);
+      EXPECT_EQ(std::ranges::max(places) - std::ranges::min(places) + 1, cells) << "there are no others";
+    }
   }
 }
 
