@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/base/none.h"
+#include "core/base/parallel.h"
 #include "core/collapse/dual_complex.h"
 #include "core/curve/parted_surface.h"
 #include "core/lattice/lattice_coordinates.h"
@@ -43,9 +44,13 @@ class Parts {
         curves_(field, ridge_),
         curve_(curves_.for_report(threshold)),
         graph_(curves_.graph_of(curve_)),
-        points_(parts_of_points(curve_, graph_)),
-        surface_(core::parted_surface(solid_, field.lattice(), points_, field.context())) {
-    *message_.mutable_curve() = curves_.message_of(curve_, threshold);
+        points_(parts_of_points(curve_, graph_)) {
+    core::parallel_for(field.threads(), 2, [&](std::size_t n) {
+      if (n == 0)
+        *message_.mutable_curve() = curves_.message_of(curve_, threshold);
+      else
+        surface_ = core::parted_surface(solid_, field.lattice(), points_, field.context());
+    });
   }
 
   v1::SolidParts run() {
@@ -165,7 +170,7 @@ class Parts {
   const core::CurveSkeleton& curve_;
   const core::CurveGraph graph_;
   const std::vector<std::uint32_t> points_;  // per sample point, its part
-  const core::PartedSurface surface_;
+  core::PartedSurface surface_;
   v1::SolidParts message_;
 };
 

@@ -3,7 +3,8 @@
 namespace affskel::core {
 
 bool is_bare(const DualComplex& complex, DualComplex::Cell cell, const CellSet& cells) {
-  return !complex.any_coface(cell, [&](DualComplex::Cell coface) { return cells.has(coface); });
+  return !complex.any_coface(cell,
+                             [&](DualComplex::Cell coface, std::uint32_t) { return cells.has(coface); });
 }
 
 void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set) {

@@ -108,77 +108,66 @@ class Collapsing {
   std::uint8_t& state(Cell cell) { return states_[cell]; }
   std::uint8_t state(Cell cell) const { return states_[cell]; }
 
-  // A cell that is free, which of its cofaces is there, and the rules' mark: one number, since the queue is the largest
-  // array of a collapse.
+  // A coface, which of its sides is the free cell, and the rules' mark: one number, since the queue is the largest array of
+  // a collapse.
   using Pair = std::uint64_t;
-  static constexpr std::uint32_t kCofaces = 32;  // more than a cell has
-  static Pair pair_of(Cell cell, std::uint32_t coface, bool mark) {
-    return (cell * kCofaces + coface) * 2 + (mark ? 1 : 0);
+  static Pair pair_of(Cell coface, std::uint32_t side, bool mark) {
+    return coface << 4 | side << 1 | (mark ? 1U : 0U);
   }
-  static Cell cell_of(Pair pair) { return pair / (2 * kCofaces); }
-  static bool mark_of(Pair pair) { return pair % 2 != 0; }
-  Cell coface_of(Pair pair) const {
-    return complex_.coface(cell_of(pair), static_cast<std::uint32_t>(pair / 2 % kCofaces));
+  static Cell coface_of(Pair pair) { return pair >> 4; }
+  Cell cell_of(Pair pair) const {
+    return complex_.face(coface_of(pair), static_cast<std::uint32_t>(pair >> 1 & 7));
   }
+  static bool mark_of(Pair pair) { return (pair & 1) != 0; }
 
   template <class Rules>
   void offer(Cell cell, double now, Rules& rules) {
     if (!is_free(cell)) return;
     if constexpr (requires { rules.stays(cell); })
       if (rules.stays(cell)) return;
-    Cell coface = cell;  // not fixed, else the cell would be
-    std::uint32_t n = 0;
-    complex_.any_coface(cell, [&](Cell other) {
-      if (has(other))
-        coface = other;
-      else
-        ++n;
-      return coface == other;
+    complex_.any_coface(cell, [&](Cell coface, std::uint32_t side) {  // not fixed, else the cell would be
+      if (!has(coface)) return false;
+      const Due due = rules.due(cell, coface, now);
+      queue_.push(static_cast<std::size_t>(due.time / kStep), pair_of(coface, side, due.mark));
+      return true;
     });
-    const Due due = rules.due(cell, coface, now);
-    queue_.push(static_cast<std::size_t>(due.time / kStep), pair_of(cell, n, due.mark));
   }
 
   // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two
   // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.  What is
-  // free of a wave at first is when its turn comes.
+  // free of a wave at first is when its turn comes: a free cell stays so as long as its coface is there.
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
     std::vector<Cell> contested;
-    std::vector<std::pair<Cell, Pair>> rivals;  // by coface
+    std::vector<Pair> rivals;
     while (queue_.pop_wave()) {
       const double now = static_cast<double>(queue_.current()) * kStep;
       contested.clear();
       queue_.for_each_in_wave([&](Pair pair) {
-        if (!is_free(cell_of(pair))) return;
         const Cell coface = coface_of(pair);
+        if (!has(coface)) return;
         if ((state(coface) & kClaimed) != 0) contested.push_back(coface);
         state(coface) |= kClaimed;
       });
       for (const Cell coface : contested) state(coface) &= static_cast<std::uint8_t>(~kClaimed);
       rivals.clear();
-      rivals.reserve(2 * contested.size());
       queue_.for_each_in_wave([&](Pair pair) {
-        const Cell cell = cell_of(pair);
-        if (!is_free(cell)) return;
-        stop.did(100);
         const Cell coface = coface_of(pair);
+        if (!has(coface)) return;
+        stop.did(100);
         if ((state(coface) & kClaimed) != 0)
-          remove(cell, coface, now, mark_of(pair), rules);
+          remove(pair, now, rules);
         else
-          rivals.emplace_back(coface, pair);
+          rivals.push_back(pair);
       });
       std::sort(rivals.begin(), rivals.end());
       for (auto first = rivals.begin(), last = first; first != rivals.end(); first = last) {
-        while (last != rivals.end() && last->first == first->first) ++last;
+        while (last != rivals.end() && coface_of(*last) == coface_of(*first)) ++last;
         const auto rank = [&](Pair pair) {
           return CellRank(complex_, rules.level(cell_of(pair)), cell_of(pair));
         };
-        const Pair lowest = std::min_element(first, last, [&](const auto& a, const auto& b) {
-                              return rank(a.second) < rank(b.second);
-                            })->second;
-        remove(cell_of(lowest), first->first, now, mark_of(lowest), rules);
+        remove(*std::min_element(first, last, [&](Pair a, Pair b) { return rank(a) < rank(b); }), now, rules);
       }
       if constexpr (requires { rules.wave_ends(); }) rules.wave_ends();
       if constexpr (requires { rules.next_cut(); }) take_cuts(now, rules);
@@ -186,9 +175,10 @@ class Collapsing {
   }
 
   template <class Rules>
-  void remove(Cell cell, Cell coface, double now, bool mark, Rules& rules) {
+  void remove(Pair pair, double now, Rules& rules) {
+    const Cell cell = cell_of(pair), coface = coface_of(pair);
     state(cell) = state(coface) = 0;
-    rules.removed(cell, coface, now, mark);
+    rules.removed(cell, coface, now, mark_of(pair));
     complex_.for_each_face(coface, [&](Cell face) {
       if (face != cell) lose_coface(face, now, rules);
     });

@@ -184,9 +184,9 @@ DualComplex::Cofaces DualComplex::cofaces(std::uint32_t cube, std::uint32_t plac
         if (about.cube[side] < about.cube[lowest]) lowest = side;
       });
       const std::uint32_t there = about.place_at(lowest);
-      found.cells[found.count++] =
-          name(about.cube[lowest],
-               about.digit_at(lowest, axis) == 0 ? there + kWeight[axis] : there - kWeight[axis]);
+      const bool upper = about.digit_at(lowest, axis) != 0;
+      found.add(name(about.cube[lowest], upper ? there - kWeight[axis] : there + kWeight[axis]),
+                side(axis, upper));
       left &= ~together;
     }
   });

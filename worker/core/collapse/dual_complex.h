@@ -192,45 +192,52 @@ class DualComplex {
     return on_boundary ? 1 : 2 * axes;
   }
 
-  /// Calls visit(coface) for the cells of one dimension more about a cell, until one returns true: whether one has.
+  /// Which of its coface's faces a cell is: twice the axis along which it lies at an end, and 1 at the upper.
+  static std::uint32_t side(std::size_t axis, bool upper) {
+    return 2 * static_cast<std::uint32_t>(axis) + (upper ? 1 : 0);
+  }
+  Cell face(Cell of, std::uint32_t side) const {
+    const std::uint32_t place = place_of(of), weight = kWeight[side / 2];
+    return cell(cube_of(of), side % 2 != 0 ? place + weight : place - weight);
+  }
+
+  /// Calls visit(coface, the cell's side of it) for the cells of one dimension more about a cell, until one returns true:
+  /// whether one has.
   template <class Visit>
   bool any_coface(Cell of, const Visit& visit) const {
     const std::uint32_t cube = cube_of(of), place = place_of(of);
     if (!is_regular(cube, place)) {
       const Cofaces about = cofaces(cube, place);
-      return std::any_of(about.begin(), about.end(), visit);
+      for (std::size_t n = 0; n < about.count; ++n)
+        if (visit(about.cells[n], std::uint32_t{about.sides[n]})) return true;
+      return false;
     }
     for (std::uint32_t left = kAcross[place]; left != 0; left &= left - 1) {
       const auto axis = static_cast<std::size_t>(std::countr_zero(left));
-      if (visit(name(cube, place - kWeight[axis]))) return true;
+      if (visit(name(cube, place - kWeight[axis]), side(axis, true))) return true;
       const std::uint32_t next = neighbour(cube, axis, 2);
-      if (next != kNone && visit(name(next, place - kWeight[axis]))) return true;
+      if (next != kNone && visit(name(next, place - kWeight[axis]), side(axis, false))) return true;
     }
     return false;
-  }
-
-  /// The n-th, in the order in which any_coface() visits them.
-  Cell coface(Cell of, std::uint32_t n) const {
-    const std::uint32_t cube = cube_of(of), place = place_of(of);
-    if (!is_regular(cube, place)) return cofaces(cube, place).cells[n];
-    std::uint32_t left = kAcross[place];
-    for (; n >= 2; n -= 2) left &= left - 1;
-    const auto axis = static_cast<std::size_t>(std::countr_zero(left));
-    return name(n == 0 ? cube : neighbour(cube, axis, 2), place - kWeight[axis]);
   }
 
   /// All of them.
   struct Cofaces {
     std::array<Cell, 24> cells;
+    std::array<std::uint8_t, 24> sides;
     std::size_t count = 0;
 
     const Cell* begin() const { return cells.data(); }
     const Cell* end() const { return cells.data() + count; }
+    void add(Cell coface, std::uint32_t side) {
+      cells[count] = coface;
+      sides[count++] = static_cast<std::uint8_t>(side);
+    }
   };
   Cofaces cofaces(Cell of) const {
     Cofaces found;
-    any_coface(of, [&](Cell coface) {
-      found.cells[found.count++] = coface;
+    any_coface(of, [&](Cell coface, std::uint32_t side) {
+      found.add(coface, side);
       return false;
     });
     return found;

@@ -51,7 +51,7 @@ class LineThinning {
         line_at_(complex_, DualComplex::places_of_dimension(0), DualComplex::kNone) {}
 
   std::vector<LimbTip> tips() {
-    for (Line& line : lines_) keep_tip(line);
+    for (const Line& line : lines_) keep_tip(line);
     std::sort(tips_.begin(), tips_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<LimbTip> result;
     for (const auto& [begun, tip] : tips_) result.push_back(tip);
@@ -96,8 +96,8 @@ class LineThinning {
     bared_at_end = std::max(bared_at_end, static_cast<float>(eaten));
     if (line.begun || !begins_at(end, birth, length, line)) {
       const double way = std::min(length - line.tip_at, eaten - birth);
-      line.tip.length = std::max(line.tip.length, way);
-      line.tip.reach = std::max(line.tip.reach, way / std::max(birth - 1, kMinLength));
+      line.longest = std::max(line.longest, way);
+      line.reach = std::max(line.reach, way / std::max(birth - 1, kMinLength));
       line.begun = line.begun || way >= std::max(kBegun * (birth - 1), kMinLength);
     }
     arrive(end, number);
@@ -105,18 +105,19 @@ class LineThinning {
 
  private:
   // What was eaten of a line.  Its length is measured in chords of a few edges, since edges turn with the
-  // lattice's axes.
+  // lattice's axes.  There is one for every fifth cube of a thin solid.
   struct Line {
     static constexpr double kChord = 4;
 
-    LimbTip tip;
+    Cell tip = 0, root = 0;  // see LimbTip
+    double width = 0;        // at the root: its birth
+    double reach = 0, longest = 0;
     double rise = 0;    // at the tip: by how much the radius is ahead of a steep line's
-    double lead = 0;    // where the limb begins: by how much births are
-    double tip_at = 0;  // length before that
+    double tip_at = 0;  // length before the root
     double whole = 0;   // of the chords
     Cell edge = 0;      // along which it came to its end
     float time = 0;     // when
-    bool upwards = false, begun = false;
+    bool upwards = false, begun = false, is_cut = false;
     std::array<std::int8_t, 3> chord{};
     // From where it has come to: its root, its tip, and the sum of the tips of other lines of the same end.
     std::array<int, 3> root_place{}, tip_place{}, others{};
@@ -126,6 +127,8 @@ class LineThinning {
     double length() const {
       return whole + std::sqrt(chord[0] * chord[0] + chord[1] * chord[1] + chord[2] * chord[2]);
     }
+    // At the root: by how much births are ahead of a steep line's.
+    double lead() const { return width - kSteep * tip_at; }
     // Goes along an edge from one of its ends. @return the other one.
     Cell go(const DualComplex& complex, Cell along, Cell from, double now) {
       edge = along;
@@ -151,19 +154,17 @@ class LineThinning {
   bool begins_at(Cell end, double birth, double length, Line& line) const {
     const double fall = kSteep * length, radius = solid_.radius_at(end);
     if (radius - fall > line.rise) {
-      line.tip.vertex = end;
+      line.tip = end;
       line.rise = radius - fall;
       line.tip_place = line.others = {};
       line.lines = 0;
     }
-    if (birth - fall <= line.lead) return false;
-    line.tip.root = end;
+    if (birth - fall <= line.lead()) return false;
+    line.root = end;
     line.root_place = {};
-    line.tip.radius = radius;
-    line.tip.width = birth;
-    line.tip.reach = line.tip.length = 0;
+    line.width = birth;
+    line.reach = line.longest = 0;
     line.tip_at = length;
-    line.lead = birth - fall;
     return true;
   }
 
@@ -172,19 +173,19 @@ class LineThinning {
     const std::uint32_t number = std::exchange(line_at_[vertex], DualComplex::kNone);
     const bool is_cut = !cut_ends_.empty() && cut_ends_.contains(vertex);
     if (number == DualComplex::kNone) {
-      const double radius = solid_.radius_at(vertex);
-      return put(
-          {.tip = {.vertex = vertex, .root = vertex, .radius = radius, .width = birth, .is_cut = is_cut},
-           .rise = radius,
-           .lead = birth,
-           .order = begun_++});
+      return put({.tip = vertex,
+                  .root = vertex,
+                  .width = birth,
+                  .rise = solid_.radius_at(vertex),
+                  .is_cut = is_cut,
+                  .order = begun_++});
     }
     if (is_cut) lead_from_cut(lines_[number]);
     return number;
   }
 
   // What is a limb without the cut stays one.
-  void lead_from_cut(Line& line) const { line.tip.is_cut = line.tip.is_cut || line.tip.reach < least_reach_; }
+  void lead_from_cut(Line& line) const { line.is_cut = line.is_cut || line.reach < least_reach_; }
 
   // Where a line that is through has left its place, if one has: hardly one in ten is under way at a time.
   std::uint32_t put(const Line& line) {
@@ -200,19 +201,24 @@ class LineThinning {
 
   void finish(std::uint32_t number) {
     keep_tip(lines_[number]);
-    lines_[number].tip.reach = 0;
+    lines_[number].reach = 0;
     free_.push_back(number);
   }
 
-  void keep_tip(Line& line) {
-    if (line.tip.reach < least_reach_) return;
-    line.tip.vertex = tip_of(line);
-    tips_.emplace_back(line.order, line.tip);
+  void keep_tip(const Line& line) {
+    if (line.reach < least_reach_) return;
+    tips_.emplace_back(line.order, LimbTip{.vertex = tip_of(line),
+                                           .root = line.root,
+                                           .radius = solid_.radius_at(line.root),
+                                           .width = line.width,
+                                           .reach = line.reach,
+                                           .length = line.longest,
+                                           .is_cut = line.is_cut});
   }
 
   // Of a flat end, whose corners lie far from its middle, the tip is in the middle.
   Cell tip_of(const Line& line) const {
-    const Cell corner = line.tip.vertex;
+    const Cell corner = line.tip;
     if (line.lines == 0) return corner;
     Vec3 way, aside;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -220,7 +226,7 @@ class LineThinning {
       way[axis] = middle - line.root_place[axis];
       aside[axis] = middle - line.tip_place[axis];
     }
-    const std::optional<Cell> middle = middle_of_end(line.tip.root, way);
+    const std::optional<Cell> middle = middle_of_end(line.root, way);
     return middle && norm(aside) > kFlat * solid_.radius_at(*middle) ? *middle : corner;
   }
 
@@ -264,7 +270,7 @@ class LineThinning {
     if (number == DualComplex::kNone) return;
     const Line& other = lines_[number];
     Line& line = lines_[last];
-    if (other.tip.is_cut) lead_from_cut(line);
+    if (other.is_cut) lead_from_cut(line);
     if (!line.begun && !other.begun && other.length() >= kSameEnd * line.length()) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         line.others[axis] += other.tip_place[axis] + other.others[axis];

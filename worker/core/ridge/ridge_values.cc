@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/base/require.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/base/unit.h"
@@ -52,7 +53,8 @@ PointRidge ridge_at(const PointDerivatives& point, double min_strength) {
 
 RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
                          std::span<const PointDerivatives> derivatives, std::span<const float> radius,
-                         const DistanceToMesh& surface, const DistanceToMesh* smoothed, double min_strength)
+                         const DistanceToMesh& surface, const DistanceToMesh* smoothed, double min_strength,
+                         unsigned threads)
     : field_(field),
       derivatives_(derivatives),
       radius_(radius),
@@ -63,13 +65,21 @@ RidgeValues::RidgeValues(const Lattice& lattice, const FrameField& field,
       to_mesh_(inverse_transposed(frame_matrix(lattice))) {
   require_within(min_strength, 1e-6, kMaxRidgeStrength,
                  "the least strength of a ridge must lie between 1e-6 and 1000");
-  for (std::size_t p = 0; p < derivatives.size(); ++p) {
-    if (p % 32 == 0) groups_.push_back({0, static_cast<std::uint32_t>(ridges_.size())});
-    const PointRidge ridge = ridge_at(derivatives[p], min_strength);
-    if (ridge.least >= 0) continue;
-    groups_.back().has |= 1U << p % 32;
-    ridges_.push_back(ridge);
-  }
+  const std::size_t points = derivatives.size();
+  groups_.resize((points + 31) / 32);
+  ridges_.resize((points + kTogether - 1) / kTogether);
+  parallel_for(threads, ridges_.size(), [&](std::size_t n) {
+    std::vector<PointRidge> found;
+    for (std::size_t p = n * kTogether; p < std::min(points, (n + 1) * kTogether); ++p) {
+      Group& group = groups_[p / 32];
+      if (p % 32 == 0) group.before = static_cast<std::uint32_t>(found.size());
+      const PointRidge ridge = ridge_at(derivatives[p], min_strength);
+      if (ridge.least >= 0) continue;
+      group.has |= 1U << p % 32;
+      found.push_back(ridge);
+    }
+    ridges_[n].assign(found.begin(), found.end());
+  });
 }
 
 double RidgeValues::least_radius(const SheetVertex& vertex) const {

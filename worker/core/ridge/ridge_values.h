@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -37,17 +36,19 @@ class RidgeValues {
   /// @param surface of the solid, lattice coordinates.
   /// @param smoothed where noise makes the surface cross itself, the same without it: what is deep below either is deep.
   /// @param min_strength least s that is asked for, radians: points far below it are left out.
+  /// @param threads >= 1; what is known does not depend on it.
   /// @throws CoreError kBadInput when the strength is out of range.
   RidgeValues(const Lattice& lattice, const FrameField& field, std::span<const PointDerivatives> derivatives,
               std::span<const float> radius, const DistanceToMesh& surface, const DistanceToMesh* smoothed,
-              double min_strength);
+              double min_strength, unsigned threads = 1);
 
   const PointRidge& ridge(std::uint32_t point) const {
     static constexpr PointRidge kNoRidge;
     const Group& group = groups_[point / 32];
     const std::uint32_t bit = 1U << point % 32;
     if ((group.has & bit) == 0) return kNoRidge;
-    return ridges_[group.before + static_cast<std::uint32_t>(std::popcount(group.has & (bit - 1)))];
+    const auto before = static_cast<std::uint32_t>(std::popcount(group.has & (bit - 1)));
+    return ridges_[point / kTogether][group.before + before];
   }
 
   /// grad P, per spacing.
@@ -80,13 +81,14 @@ class RidgeValues {
   const DistanceToMesh* smoothed_;
   double widest_;  // no ball in the solid is larger, spacings
   double min_strength_;
-  Matrix3 to_mesh_;  // F^-T
-  // Of 32 points: which have a ridge, and how many before them have.
+  Matrix3 to_mesh_;                                 // F^-T
+  static constexpr std::uint32_t kTogether = 4096;  // points whose ridges are found on one thread
+  // Of 32 points: which have a ridge, and how many before them, of those found together, have.
   struct Group {
     std::uint32_t has = 0, before = 0;
   };
   std::vector<Group> groups_;
-  std::deque<PointRidge> ridges_;  // of points that have one
+  std::vector<std::vector<PointRidge>> ridges_;  // of points that have one, as they were found
 };
 
 }  // namespace affskel::core
