@@ -18,7 +18,7 @@ class CellValues {
   /// @param places a set, such as those of all cells of a dimension: see DualComplex::places_of_dimension().
   /// @param none every cell's at first.
   CellValues(const DualComplex& complex, std::uint32_t places, Value none)
-      : complex_(&complex), others_(places & ~DualComplex::kUpperPlaces) {
+      : complex_(&complex), places_(places), others_(places & ~DualComplex::kUpperPlaces) {
     for (std::uint32_t place = 0; place < slot_.size(); ++place) {
       slot_[place] = static_cast<std::uint8_t>(per_cube_);
       if ((places & DualComplex::kUpperPlaces & 1U << place) != 0) ++per_cube_;
@@ -34,6 +34,18 @@ class CellValues {
 
   Value& operator[](DualComplex::Cell cell) { return values_[index(cell)]; }
   Value operator[](DualComplex::Cell cell) const { return values_[index(cell)]; }
+
+  /// Calls visit(cell, value) for every one, by cube, then by place.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    std::size_t usual = 0, other = per_cube_ * std::size_t{complex_->cubes()};
+    for (std::uint32_t cube = 0; cube < complex_->cubes(); ++cube) {
+      for (std::uint32_t left = complex_->own_places(cube) & places_; left != 0; left &= left - 1) {
+        const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+        visit(DualComplex::name(cube, place), values_[(others_ >> place & 1U) != 0 ? other++ : usual++]);
+      }
+    }
+  }
 
  private:
   static constexpr std::uint32_t kPlaces = 27;
@@ -54,7 +66,7 @@ class CellValues {
   }
 
   const DualComplex* complex_;
-  std::uint32_t others_;                      // the places that are at a lower end
+  std::uint32_t places_, others_;             // the places that are at a lower end
   std::size_t per_cube_ = 0;                  // those that are not
   std::array<std::uint8_t, kPlaces> slot_{};  // where they come
   std::vector<std::size_t> first_;            // where the others of so many that own some begin

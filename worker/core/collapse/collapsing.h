@@ -33,8 +33,8 @@ class Collapsing {
   Collapsing(const DualComplex& complex, ExecutionContext* context)
       : complex_(complex), context_(context), states_(complex, DualComplex::kAllPlaces, 0) {
     StopCheck stop(context);
-    complex.for_each_cell([&](Cell cell) {
-      state(cell) = static_cast<std::uint8_t>(kThere | complex.coface_count(cell));
+    states_.for_each([&](Cell cell, std::uint8_t& state) {
+      state = static_cast<std::uint8_t>(kThere | complex.coface_count(cell));
       stop.did(20);
     });
   }
@@ -61,15 +61,15 @@ class Collapsing {
   bool is_fixed(Cell cell) const { return (state(cell) & kFixed) != 0; }
 
   /// Whether a cell may be removed and has exactly one coface.
-  bool is_free(Cell cell) const { return state(cell) == (kThere | 1); }
+  bool is_free(Cell cell) const { return state(cell) == kFree; }
 
   /// How many cofaces a cell has.
-  std::uint32_t cofaces(Cell cell) const { return state(cell) & static_cast<std::uint8_t>(kClaimed - 1); }
+  std::uint32_t cofaces(Cell cell) const { return state(cell) & kCount; }
 
-  CellSet cells() const {
+  CellSet cells() {
     CellSet result(complex_);
-    complex_.for_each_cell([&](Cell cell) {
-      if (has(cell)) result.insert(cell);
+    states_.for_each([&](Cell cell, std::uint8_t state) {
+      if ((state & kThere) != 0) result.insert(cell);
     });
     return result;
   }
@@ -84,26 +84,31 @@ class Collapsing {
   ///   without cofaces that is taken out by itself, or nothing.
   template <class Rules>
   void run(Rules& rules) {
-    complex_.for_each_cell([&](Cell cell) { offer(cell, 0, rules); });
+    states_.for_each([&](Cell cell, std::uint8_t state) {
+      if (state == kFree) offer(cell, 0, rules);
+    });
     go_on(rules);
   }
 
   /// The same where no others are there.
   template <class Rules>
   void run(Rules& rules, const CellSet& cells) {
-    cells.for_each([&](Cell cell) { offer(cell, 0, rules); });
+    cells.for_each([&](Cell cell) {
+      if (is_free(cell)) offer(cell, 0, rules);
+    });
     go_on(rules);
   }
 
   /// Goes on with a cell that was released.
   template <class Rules>
   void run_from(Cell cell, Rules& rules) {
-    offer(cell, static_cast<double>(queue_.current()) * kStep, rules);
+    if (is_free(cell)) offer(cell, static_cast<double>(queue_.current()) * kStep, rules);
     go_on(rules);
   }
 
  private:
-  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20;
+  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20, kCount = kClaimed - 1,
+                                kFree = kThere | 1;
 
   std::uint8_t& state(Cell cell) { return states_[cell]; }
   std::uint8_t state(Cell cell) const { return states_[cell]; }
@@ -120,9 +125,9 @@ class Collapsing {
   }
   static bool mark_of(Pair pair) { return (pair & 1) != 0; }
 
+  // A cell that is free.
   template <class Rules>
   void offer(Cell cell, double now, Rules& rules) {
-    if (!is_free(cell)) return;
     if constexpr (requires { rules.stays(cell); })
       if (rules.stays(cell)) return;
     complex_.any_coface(cell, [&](Cell coface, std::uint32_t side) {  // not fixed, else the cell would be
@@ -196,10 +201,10 @@ class Collapsing {
 
   template <class Rules>
   void lose_coface(Cell cell, double now, Rules& rules) {
-    --state(cell);
+    const std::uint8_t left = --state(cell);
     if constexpr (requires { rules.lost_coface(cell, 0U, now); })
-      if (has(cell)) rules.lost_coface(cell, cofaces(cell), now);
-    offer(cell, now, rules);
+      if ((left & kThere) != 0) rules.lost_coface(cell, left & kCount, now);
+    if (left == kFree) offer(cell, now, rules);
   }
 
   const DualComplex& complex_;

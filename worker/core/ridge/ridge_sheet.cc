@@ -31,6 +31,10 @@
 namespace affskel::core {
 namespace {
 
+// With fewer points those near the surface are so many that the limbs and the derivatives, found at the same time, take
+// more memory than all that comes after them.
+constexpr std::uint32_t kBesideEachOther = 500'000;
+
 constexpr int kSmoothings = 2;  // enough to hide noise as large as triangles
 
 Mesh smoothed(Mesh surface) {
@@ -273,9 +277,11 @@ class SheetMaker {
 };
 
 // What thinning the whole complex tells.
-void find_limbs(const Solid& solid, const Lattice& lattice, ThinnedSolid thinned, ExecutionContext* context,
-                RidgeBasis& basis) {
+void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field,
+                ExecutionContext* context, RidgeBasis& basis) {
   const DualComplex& complex = basis.complex;
+  basis.topology = betti_numbers(complex, context);
+  ThinnedSolid thinned = thinned_solid(complex, basis.radius, field.erosion, context);
   CellSet left = collapsed(complex, thinned.cells, {}, context);
   const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
   std::vector<DualComplex::Cell> cuts;
@@ -305,17 +311,13 @@ RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameFi
   RidgeBasis basis{DualComplex(lattice)};
   basis.radius = surface_distance(lattice, context);
   if (solid.self_intersecting) basis.thickness = section_radii(field);
-  std::optional<ThinnedSolid> thinned;
-  // Eating lines takes more memory than the squares before them, and waits until that of the derivatives is free.
-  parallel_for(threads, 2, [&](std::size_t n) {
-    if (n == 0) {
-      basis.topology = betti_numbers(basis.complex, context);
-      thinned.emplace(thinned_solid(basis.complex, basis.radius, field.erosion, context));
-    } else {
-      basis.derivatives = smoothed_derivatives(lattice, field, std::max(1U, threads - 1), context);
-    }
+  const bool at_once = threads > 1 && lattice.points >= kBesideEachOther;
+  parallel_for(at_once ? 2 : 1, 2, [&](std::size_t n) {
+    if (n == 0)
+      find_limbs(solid, lattice, field, context, basis);
+    else
+      basis.derivatives = smoothed_derivatives(lattice, field, at_once ? threads - 1 : threads, context);
   });
-  find_limbs(solid, lattice, *std::move(thinned), context, basis);
   return basis;
 }
 
