@@ -77,16 +77,13 @@ const core::CurveSkeleton& CurveOfField::for_report(double threshold) const {
   const core::CurveInput in = input();
   core::CurveSkeleton curve;
   core::SheetMesh lines;
-  core::parallel_halves(
-      options.threads,
-      [&](unsigned threads) {
-        options.threads = threads;
-        curve = core::curve_skeleton(in, options);
-      },
-      [&](unsigned threads) {
-        later.threads = threads;
-        lines = core::curve_lines(in, later);
-      });
+  // Each on all threads: what has more to do has them alone at the end.
+  core::parallel_for(options.threads, 2, [&](std::size_t n) {
+    if (n == 0)
+      curve = core::curve_skeleton(in, options);
+    else
+      lines = core::curve_lines(in, later);
+  });
   lines_.emplace(*next, std::move(lines));
   return curves.emplace(options.least_reach, std::move(curve)).first->second;
 }

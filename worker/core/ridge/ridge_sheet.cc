@@ -280,7 +280,6 @@ class SheetMaker {
 void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& field,
                 ExecutionContext* context, RidgeBasis& basis) {
   const DualComplex& complex = basis.complex;
-  basis.topology = betti_numbers(complex, context);
   ThinnedSolid thinned = thinned_solid(complex, basis.radius, field.erosion, context);
   CellSet left = collapsed(complex, thinned.cells, {}, context);
   const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
@@ -309,7 +308,12 @@ void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& fi
 RidgeBasis ridge_basis(const Solid& solid, const Lattice& lattice, const FrameField& field, unsigned threads,
                        ExecutionContext* context) {
   RidgeBasis basis{DualComplex(lattice)};
-  basis.radius = surface_distance(lattice, context);
+  parallel_for(threads, 2, [&](std::size_t n) {
+    if (n == 0)
+      basis.topology = betti_numbers(basis.complex, context);
+    else
+      basis.radius = surface_distance(lattice, context);
+  });
   if (solid.self_intersecting) basis.thickness = section_radii(field);
   const bool at_once = threads > 1 && lattice.points >= kBesideEachOther;
   parallel_for(at_once ? 2 : 1, 2, [&](std::size_t n) {
