@@ -18,10 +18,11 @@ class CellValues {
   /// @param places a set, such as those of all cells of a dimension: see DualComplex::places_of_dimension().
   /// @param none every cell's at first.
   CellValues(const DualComplex& complex, std::uint32_t places, Value none)
-      : complex_(&complex), places_(places), others_(places & ~DualComplex::kUpperPlaces) {
-    for (std::uint32_t place = 0; place < slot_.size(); ++place) {
+      : complex_(&complex), others_(places & ~DualComplex::kUpperPlaces) {
+    for (std::uint32_t place = 0; place < kPlaces; ++place) {
+      if ((places & DualComplex::kUpperPlaces & 1U << place) == 0) continue;
       slot_[place] = static_cast<std::uint8_t>(per_cube_);
-      if ((places & DualComplex::kUpperPlaces & 1U << place) != 0) ++per_cube_;
+      usual_[per_cube_++] = static_cast<std::uint8_t>(place);
     }
     std::size_t end = per_cube_ * std::size_t{complex.cubes()};
     const auto owners = complex.other_owners();
@@ -35,15 +36,14 @@ class CellValues {
   Value& operator[](DualComplex::Cell cell) { return values_[index(cell)]; }
   Value operator[](DualComplex::Cell cell) const { return values_[index(cell)]; }
 
-  /// Calls visit(cell, value) for every one, by cube, then by place.
+  /// Calls visit(cell, value) for every one, by cube.
   template <class Visit>
   void for_each(const Visit& visit) {
     std::size_t usual = 0, other = per_cube_ * std::size_t{complex_->cubes()};
     for (std::uint32_t cube = 0; cube < complex_->cubes(); ++cube) {
-      for (std::uint32_t left = complex_->own_places(cube) & places_; left != 0; left &= left - 1) {
-        const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
-        visit(DualComplex::name(cube, place), values_[(others_ >> place & 1U) != 0 ? other++ : usual++]);
-      }
+      for (std::size_t n = 0; n < per_cube_; ++n) visit(DualComplex::name(cube, usual_[n]), values_[usual++]);
+      for (std::uint32_t left = complex_->own_places(cube) & others_; left != 0; left &= left - 1)
+        visit(DualComplex::name(cube, static_cast<std::uint32_t>(std::countr_zero(left))), values_[other++]);
     }
   }
 
@@ -66,9 +66,10 @@ class CellValues {
   }
 
   const DualComplex* complex_;
-  std::uint32_t places_, others_;             // the places that are at a lower end
-  std::size_t per_cube_ = 0;                  // those that are not
-  std::array<std::uint8_t, kPlaces> slot_{};  // where they come
+  std::uint32_t others_;                      // the places that are at a lower end
+  std::size_t per_cube_ = 0;                  // how many are not
+  std::array<std::uint8_t, 8> usual_{};       // these
+  std::array<std::uint8_t, kPlaces> slot_{};  // where one of them comes
   std::vector<std::size_t> first_;            // where the others of so many that own some begin
   std::vector<Value> values_;
 };
