@@ -201,7 +201,7 @@ class FindHubs {
       growth.has_joined = growth.has_joined || grows;
       stop_.did(8 * ends_.size());
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-        if (result_.of[v] != kNone || growth.hub.outside(in_.places[v]) >= 0) continue;
+        if (result_.of[v] != kNone || !holds(growth.hub, v)) continue;
         if (parted_.limb[v] != kNone && runs_out_[parted_.limb[v]] != 0) continue;
         if (is_long_end(v, growth.all.count)) runs_out_[parted_.limb[v]] = runs_out = true;
         result_.of[v] = growth.number;
@@ -210,6 +210,12 @@ class FindHubs {
       }
     }
     return !runs_out;
+  }
+
+  // The vertex, or the middle of what is nearest to it: lines may run along the rim of a head.
+  bool holds(const LimbHub& hub, std::uint32_t v) const {
+    return hub.outside(in_.places[v]) < 0 ||
+           (moments_[v].count > 0 && hub.outside(moments_[v].centre()) < 0);
   }
 
   // Hubs that both hold the place between their middles are one where that fills its ellipsoid about as they do theirs, as
