@@ -22,6 +22,7 @@ constexpr double kThicker = 1.4;          // times as thick as the thickest
 constexpr double kGrown = 1.1;            // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.66;          // of the ellipsoid with its moments: a network fills less
 constexpr double kFilledStrictly = 0.74;  // from about a body, or beside others: half of a gear fills less
+constexpr double kFilledAlone = 0.85;     // with what its limbs leave it: ends of these fill the ellipsoid less
 constexpr double kAbout = 2;              // times the ellipsoid of a body: what may grow, too
 constexpr double kAsFilled = 0.9;         // times what those that it joins fill of theirs
 constexpr double kTaken =
@@ -137,7 +138,7 @@ class FindHubs {
     if (is_hub(growth)) {
       growth.hub.joint = joint_of(number, growth.hub.centre);
       result_.hubs.push_back(growth.hub);
-      found_filled_.push_back(filled(growth));
+      found_filled_.push_back(filled(growth.all, growth.hub));
       return true;
     }
     joins = !growth.has_joined;
@@ -244,9 +245,19 @@ class FindHubs {
   // The middle of a ring or of what is bent lies outside the solid.  Parts it from its limbs, too.
   bool is_hub(const Growth& growth) {
     const LimbHub& hub = growth.hub;
-    return filled(growth) >= growth.least_filled && !is_bar(hub) &&
+    const bool is_filled = filled(growth.all, hub) >= growth.least_filled;
+    return (is_filled || growth.least_filled == kFilled) && !is_bar(hub) &&
            is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * hub.centre) && holds_no_limb(growth) &&
-           parts_no_limb(growth) && is_thick(growth);
+           parts_no_limb(growth) && is_thick(growth) && (is_filled || is_filled_alone(growth.number));
+  }
+
+  bool is_filled_alone(std::uint32_t number) const {
+    PlaceMoments left;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (result_.of[v] == number) left.add(moments_[v]);
+    LimbHub hub;
+    fit(left, hub);
+    return filled(left, hub) >= kFilledAlone;
   }
 
   // What takes the middle out of a limb leaves one in two pieces.
@@ -315,9 +326,9 @@ class FindHubs {
   }
 
   // What it is of its ellipsoid: a network of rods is little.
-  double filled(const Growth& growth) const {
-    const double ball = kPerBall * volume_of(growth.all.count) * kGrown * kGrown * kGrown;
-    return ball * std::sqrt(determinant(growth.hub.form));
+  double filled(const PlaceMoments& all, const LimbHub& hub) const {
+    const double ball = kPerBall * volume_of(all.count) * kGrown * kGrown * kGrown;
+    return ball * std::sqrt(determinant(hub.form));
   }
 
   bool is_bar(const LimbHub& hub) const {
