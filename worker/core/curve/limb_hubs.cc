@@ -22,9 +22,9 @@ constexpr double kThicker = 1.4;          // times as thick as the thickest
 constexpr double kGrown = 1.1;            // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.66;          // of the ellipsoid with its moments: a network fills less
 constexpr double kFilledStrictly = 0.74;  // from about a body, or beside others: half of a gear fills less
-constexpr double kFilledAlone = 0.85;     // with what its limbs leave it: ends of these fill the ellipsoid less
-constexpr double kAbout = 2;              // times the ellipsoid of a body: what may grow, too
-constexpr double kAsFilled = 0.9;         // times what those that it joins fill of theirs
+constexpr double kFilledAlone = 0.85;  // with what its limbs leave it: ends of these fill the ellipsoid less
+constexpr double kAbout = 2;           // times the ellipsoid of a body: what may grow, too
+constexpr double kAsFilled = 0.9;      // times what those that it joins fill of theirs
 constexpr double kTaken =
     1.5;  // times what has grown, with what of limbs that it would grow along lies in it
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
@@ -47,11 +47,13 @@ class FindHubs {
     parted_ = parted_lines({in_.places, in_.lines, in_.radius, moments_, in_.lattice.spacing});
     runs_out_.resize(parted_.limbs.size());
     join_what_touches();
-    for (const bool is_wide : {false, true}) {
-      std::fill(is_tried_.begin(), is_tried_.end(), 0);
-      for (std::uint32_t v = 0; v < ends_.size(); ++v)
-        if (parted_.is_body[v] && parted_.bodies.find(v) == v) add_hub(v, is_wide);
-    }
+    std::vector<std::uint32_t> bodies;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (parted_.is_body[v] && parted_.bodies.find(v) == v) bodies.push_back(v);
+    for (const std::uint32_t body : bodies) add_hub(body);
+    std::fill(is_tried_.begin(), is_tried_.end(), 0);
+    is_widened_.assign(result_.hubs.size() + bodies.size(), 0);
+    for (const std::uint32_t body : bodies) add_wide_hub(body);
     number_hubs();
     return std::move(result_);
   }
@@ -81,41 +83,76 @@ class FindHubs {
 
   // A hub as large as grows from a body, as far as no other has that.  Those that it joins are no longer there; where it is
   // none with them, it grows beside them.  What held a body, and was none, is what would grow from that.
-  // @param is_wide whether it begins with what lies about the body, too, where that has none: what is nearest to a joint may be
-  // little of a palm.
-  void add_hub(std::uint32_t body, bool is_wide) {
+  void add_hub(std::uint32_t body) {
     std::vector<std::uint32_t> own;
     PlaceMoments all;
-    bool has_hub = false;
-    for (std::uint32_t v = body; v < ends_.size(); ++v) {
-      if (!parted_.is_body[v] || parted_.bodies.find(v) != body) continue;
-      has_hub = has_hub || result_.of[v] != kNone;
+    for (const std::uint32_t v : vertices_of(body)) {
       if (result_.of[v] != kNone) continue;
       own.push_back(v);
       all.add(moments_[v]);
     }
-    const auto any = [&](const auto& is) { return std::any_of(own.begin(), own.end(), is); };
-    if (!(all.count > 0) || !any([&](std::uint32_t v) { return is_joint(v); }) ||
-        !any([&](std::uint32_t v) { return !is_tried_[v]; }) ||
-        (is_wide && (has_hub || !take_about(body, all, own))))
-      return;
+    if (!(all.count > 0) || !may_grow(own)) return;
     bool joins = true;
-    if (!grow_hub(own, is_wide ? kFilledStrictly : kFilled, joins) && !joins && !is_wide)
-      grow_hub(own, kFilledStrictly, joins);
+    if (!grow_hub(own, kFilled, joins) && !joins) grow_hub(own, kFilledStrictly, joins);
   }
 
-  // Adds to what is a body's own what lies about it.
+  std::vector<std::uint32_t> vertices_of(std::uint32_t body) {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = body; v < ends_.size(); ++v)
+      if (parted_.is_body[v] && parted_.bodies.find(v) == body) vertices.push_back(v);
+    return vertices;
+  }
+
+  // Whether there is a joint among them, and any that nothing has held.
+  bool may_grow(std::span<const std::uint32_t> own) const {
+    return std::ranges::any_of(own, [&](std::uint32_t v) { return is_joint(v); }) &&
+           std::ranges::any_of(own, [&](std::uint32_t v) { return is_tried_[v] == 0; });
+  }
+
+  // The same with what lies about a body, or about its hub: what is nearest to a joint may be little of a palm, and a hub
+  // may have grown no further than to a part of it.
+  void add_wide_hub(std::uint32_t body) {
+    std::vector<std::uint32_t> own = vertices_of(body);
+    std::vector<std::uint32_t> before = result_.of;
+    const auto has_hub = std::ranges::find_if(own, [&](std::uint32_t v) { return before[v] != kNone; });
+    if (has_hub != own.end()) {
+      const std::uint32_t hub = before[*has_hub];
+      if (is_widened_[hub] != 0) return;
+      is_widened_[hub] = 1;
+      own.clear();
+      for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+        if (before[v] != hub) continue;
+        own.push_back(v);
+        result_.of[v] = kNone;
+      }
+    }
+    bool joins = true;
+    if (take_about(own) && may_grow(own) && grow_hub(own, kFilledStrictly, joins)) return;
+    result_.of = std::move(before);
+  }
+
+  // Adds to what is a body's own what lies about it; of a joint that has nothing, what its section has.
   // @return whether that is anything, and no end of a long limb, which the body would grow along.
-  bool take_about(std::uint32_t body, const PlaceMoments& all, std::vector<std::uint32_t>& own) {
+  bool take_about(std::vector<std::uint32_t>& own) {
     stop_.did(8 * ends_.size());
-    const std::size_t before = own.size();
+    PlaceMoments all;
+    for (const std::uint32_t v : own) all.add(moments_[v]);
     LimbHub about;
-    fit(all, about);
-    about.form = (1 / (kAbout * kAbout)) * about.form;
+    if (all.count > 0) {
+      fit(all, about);
+      about.form = (1 / (kAbout * kAbout)) * about.form;
+    } else {
+      const double radius = in_.section[own.front()];
+      if (!(radius > 0)) return false;
+      about.centre = in_.places[own.front()];
+      about.form = (1 / (radius * radius)) * kIdentity3;
+    }
+    const std::size_t before = own.size();
+    std::vector<char> is_own(ends_.size(), 0);
+    for (const std::uint32_t v : own) is_own[v] = 1;
     for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      if (result_.of[v] != kNone || about.outside(in_.places[v]) >= 0) continue;
+      if (is_own[v] != 0 || result_.of[v] != kNone || about.outside(in_.places[v]) >= 0) continue;
       if (is_long_end(v, all.count)) return false;
-      if (parted_.is_body[v] && parted_.bodies.find(v) == body) continue;
       own.push_back(v);
     }
     return own.size() > before;
@@ -215,8 +252,7 @@ class FindHubs {
 
   // The vertex, or the middle of what is nearest to it: lines may run along the rim of a head.
   bool holds(const LimbHub& hub, std::uint32_t v) const {
-    return hub.outside(in_.places[v]) < 0 ||
-           (moments_[v].count > 0 && hub.outside(moments_[v].centre()) < 0);
+    return hub.outside(in_.places[v]) < 0 || (moments_[v].count > 0 && hub.outside(moments_[v].centre()) < 0);
   }
 
   // Hubs that both hold the place between their middles are one where that fills its ellipsoid about as they do theirs, as
@@ -347,6 +383,7 @@ class FindHubs {
   const LimbHubsInput& in_;
   std::vector<std::uint32_t> ends_;    // of lines, per vertex
   std::vector<char> is_tried_;         // per vertex: held by what has grown, and was no hub
+  std::vector<char> is_widened_;       // per hub: it has grown, or not, from what lies about it
   std::vector<PlaceMoments> moments_;  // per vertex: of its points
   PartedLines parted_;
   std::vector<char> runs_out_;  // per limb: a hub would grow along it to its end
