@@ -250,9 +250,9 @@ class FindHubs {
     return !runs_out;
   }
 
-  // The vertex, or the middle of what is nearest to it: lines may run along the rim of a head.
+  // The middle of what is nearest to a vertex: lines may run along the rim of a head.
   bool holds(const LimbHub& hub, std::uint32_t v) const {
-    return hub.outside(in_.places[v]) < 0 || (moments_[v].count > 0 && hub.outside(moments_[v].centre()) < 0);
+    return hub.outside(moments_[v].count > 0 ? moments_[v].centre() : in_.places[v]) < 0;
   }
 
   // Hubs that both hold the place between their middles are one where that fills its ellipsoid about as they do theirs, as
