@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "core/base/median.h"
 #include "core/base/plain_math.h"
@@ -97,10 +98,10 @@ class FindHubs {
   }
 
   std::vector<std::uint32_t> vertices_of(std::uint32_t body) {
-    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> own;
     for (std::uint32_t v = body; v < ends_.size(); ++v)
-      if (parted_.is_body[v] && parted_.bodies.find(v) == body) vertices.push_back(v);
-    return vertices;
+      if (parted_.is_body[v] && parted_.bodies.find(v) == body) own.push_back(v);
+    return own;
   }
 
   // Whether there is a joint among them, and any that nothing has held.
@@ -117,8 +118,7 @@ class FindHubs {
     const auto has_hub = std::ranges::find_if(own, [&](std::uint32_t v) { return before[v] != kNone; });
     if (has_hub != own.end()) {
       const std::uint32_t hub = before[*has_hub];
-      if (is_widened_[hub] != 0) return;
-      is_widened_[hub] = 1;
+      if (std::exchange(is_widened_[hub], 1) != 0) return;
       own.clear();
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
         if (before[v] != hub) continue;
@@ -131,22 +131,16 @@ class FindHubs {
     result_.of = std::move(before);
   }
 
-  // Adds to what is a body's own what lies about it; of a joint that has nothing, what its section has.
+  // Adds to what is a body's own what lies about it.
   // @return whether that is anything, and no end of a long limb, which the body would grow along.
   bool take_about(std::vector<std::uint32_t>& own) {
     stop_.did(8 * ends_.size());
     PlaceMoments all;
     for (const std::uint32_t v : own) all.add(moments_[v]);
+    if (!(all.count > 0)) return false;
     LimbHub about;
-    if (all.count > 0) {
-      fit(all, about);
-      about.form = (1 / (kAbout * kAbout)) * about.form;
-    } else {
-      const double radius = in_.section[own.front()];
-      if (!(radius > 0)) return false;
-      about.centre = in_.places[own.front()];
-      about.form = (1 / (radius * radius)) * kIdentity3;
-    }
+    fit(all, about);
+    about.form = (1 / (kAbout * kAbout)) * about.form;
     const std::size_t before = own.size();
     std::vector<char> is_own(ends_.size(), 0);
     for (const std::uint32_t v : own) is_own[v] = 1;

@@ -183,6 +183,33 @@ TEST(LimbHubs, GrowFromWhatLiesAboutABody) {
   EXPECT_LT(norm(found.hubs[0].centre - palm.middle), 1);
 }
 
+// Under an octopus's head lines run from arm to arm: what is nearest to them is the head above.
+TEST(LimbHubs, GrowByWhatIsNearestToLinesAlongTheirRim) {
+  Cube head;
+  const std::uint32_t joint = head.add(head.middle - Vec3{0, 0, 1.95}, 2);
+  head.go_out(joint, kCross, 1.5, 1, 0.6);
+  head.open_until(2.8);
+  const LimbHubs found = head.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_LT(norm(found.hubs[0].centre - head.middle), 0.05);
+}
+
+// A plate, and bars on one side of it that begin within its ellipsoid.
+TEST(LimbHubs, AreWhatTheirLimbsLeave) {
+  Mesh fork = make_box(3, 6, 1);
+  for (const double y : {0., 1.8, 3.6, 5.4}) fork = joined(fork, moved(make_box(6, 0.6, 1.4), {3, y, -0.2}));
+  Cube cube(fork);
+  cube.middle = cube.middle - Vec3{cube.middle.x - 1.5, 0, 0};
+  const std::uint32_t joint = cube.add(cube.middle, 2);
+  for (const double y : {-2.7, -0.9, 0.9, 2.7})
+    cube.go_out(cube.go(joint, {0, y / 10, 0}, 10, 1.5), {{0.1, 0, 0}}, 1.5, 1, 3.4);
+  cube.section.clear();
+  for (const Vec3& at : cube.places) cube.section.push_back(at.x < cube.middle.x + 1.4 ? 1.5 : 0.5);
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_LT(std::abs(found.hubs[0].centre.y - cube.middle.y), 0.1);
+}
+
 // A limb grows where it turns a corner: of a bar with thin arms nothing else makes a hub.
 TEST(LimbHubs, AreNoBars) {
   for (const double length : {4., 6.}) {
