@@ -70,7 +70,7 @@ void add_measure(CommandLine& line) {
       "largest first, about equal ones by their places: limbs end freely, links join limbs, loops close, a line ends\n"
       "freely at both ends; a point is the body that others hang on, its radius that of a ball as large, or a solid\n"
       "without limbs.  Lengths are in the units of the mesh, without what of a line runs within such a body; angles\n"
-      "180 where a part goes straight on from the one it hangs on",
+      "are those with the heaviest part at the joint, 180 where they lie straight",
       [options](Context& context) { run_measure(context, *options); });
   add_job(command, options->job);
   command
@@ -78,10 +78,11 @@ void add_measure(CommandLine& line) {
                    "The shortest limb that counts, in its own radii (default and least: 0.9)")
       ->check(positive_number())
       ->type_name("T");
-  command->add_option("-o,--output", options->output, "File to write: .csv or .json; - is stdout")
-      ->check(non_empty())
-      ->type_name("FILE");
+  CLI::Option* output =
+      command->add_option("-o,--output", options->output, "File to write: .csv or .json; - is stdout");
+  output->check(non_empty())->type_name("FILE");
   add_format(command, options->format);
+  command->get_option("--format")->needs(output);
 }
 
 }  // namespace affskel::client

@@ -86,8 +86,7 @@ Advice on_threshold(std::vector<double> size, double threshold) {
 void add_on_few_points(const Lattice& lattice, Advice& advice) {
   if (lattice.points >= kFewPoints) return;
   advice.text += " The lattice has only " + base::counted(lattice.points, "sample point") +
-                 ": submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) +
-                 ", or with 100000 points.";
+                 ": submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) + ".";
   advice.settings.push_back({"points", "100000"});
 }
 
@@ -134,8 +133,7 @@ Advice on_turn(const Lattice& lattice, const ShockCensus& census, double strong_
 Advice with_more_points(const Lattice& lattice, const std::string& why) {
   constexpr std::uint64_t kMore = 8, kRound = 10000;
   const std::string points = std::to_string((kMore * lattice.points + kRound - 1) / kRound * kRound);
-  return {why + " Submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) + ", or with " +
-              points + " points.",
+  return {why + " Submit with a smaller spacing than " + base::rounded(lattice.spacing, 3) + ".",
           {{"points", points}}};
 }
 

@@ -91,6 +91,7 @@ TEST_F(MeasureTest, ABallIsOnePart) {
 TEST_F(MeasureTest, RefusesOtherFormats) {
   EXPECT_EQ(run({"measure", "@last", "-o", dir_ / "limbs.xlsx"}).exit_code, 2);
   EXPECT_EQ(run({"measure", "@last", "--threshold", "0"}).exit_code, 2);
+  EXPECT_EQ(run({"measure", "@last", "--format", "csv"}).exit_code, 2) << "there is no file";
   EXPECT_TRUE(service_.fetches.empty()) << "before anything is asked";
 }
 

@@ -164,7 +164,7 @@ TEST(CoarseLatticeAdvice, NamesWhatDiffersAndMorePoints) {
   const Advice advice = coarse_lattice_advice(block.lattice, {1, 3, 0}, {2, 1, 1});
   EXPECT_TRUE(says(advice, "1 piece, 3 tunnels and 0 voids")) << advice.text;
   EXPECT_TRUE(says(advice, "2 pieces, 1 tunnel and 1 void")) << advice.text;
-  EXPECT_TRUE(says(advice, "smaller spacing than 0.5, or with 10000 points")) << advice.text;
+  EXPECT_TRUE(says(advice, "Submit with a smaller spacing than 0.5.")) << advice.text;
   EXPECT_TRUE(suggests(advice, "points", "10000"));
   EXPECT_TRUE(is_plain(advice));
 }
