@@ -69,7 +69,7 @@ const core::CurveSkeleton& CurveOfField::at(double threshold) const {
 
 const core::CurveSkeleton& CurveOfField::for_report(double threshold) const {
   const auto next = compared_to(threshold);
-  core::CurveOptions options = options_at(threshold);
+  const core::CurveOptions options = options_at(threshold);
   auto& curves = field_.known().curves;
   if (options.threads == 1 || !next || curves.contains(options.least_reach)) return at(threshold);
   core::CurveOptions later = options;

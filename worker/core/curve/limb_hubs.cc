@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
 
 #include "core/base/median.h"
 #include "core/base/plain_math.h"
@@ -92,6 +91,7 @@ class FindHubs {
       own.push_back(v);
       all.add(moments_[v]);
     }
+    stop_.did(2 * ends_.size());
     if (!(all.count > 0) || !may_grow(own)) return;
     bool joins = true;
     if (!grow_hub(own, kFilled, joins) && !joins) grow_hub(own, kFilledStrictly, joins);
@@ -113,12 +113,16 @@ class FindHubs {
   // The same with what lies about a body, or about its hub: what is nearest to a joint may be little of a palm, and a hub
   // may have grown no further than to a part of it.
   void add_wide_hub(std::uint32_t body) {
+    stop_.did(2 * ends_.size());
     std::vector<std::uint32_t> own = vertices_of(body);
+    double least_filled = kFilledStrictly;
     std::vector<std::uint32_t> before = result_.of;
     const auto has_hub = std::ranges::find_if(own, [&](std::uint32_t v) { return before[v] != kNone; });
     if (has_hub != own.end()) {
       const std::uint32_t hub = before[*has_hub];
-      if (std::exchange(is_widened_[hub], 1) != 0) return;
+      if (is_widened_[hub] != 0) return;
+      is_widened_[hub] = 1;
+      least_filled = std::max(least_filled, kAsFilled * found_filled_[hub]);
       own.clear();
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
         if (before[v] != hub) continue;
@@ -127,8 +131,10 @@ class FindHubs {
       }
     }
     bool joins = true;
-    if (take_about(own) && may_grow(own) && grow_hub(own, kFilledStrictly, joins)) return;
-    result_.of = std::move(before);
+    if (may_grow(own) && take_about(own) && grow_hub(own, least_filled, joins))
+      is_widened_[result_.hubs.size() - 1] = 1;
+    else
+      result_.of = std::move(before);
   }
 
   // Adds to what is a body's own what lies about it.
@@ -145,7 +151,7 @@ class FindHubs {
     std::vector<char> is_own(ends_.size(), 0);
     for (const std::uint32_t v : own) is_own[v] = 1;
     for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      if (is_own[v] != 0 || result_.of[v] != kNone || about.outside(in_.places[v]) >= 0) continue;
+      if (is_own[v] != 0 || result_.of[v] != kNone || !holds(about, v)) continue;
       if (is_long_end(v, all.count)) return false;
       own.push_back(v);
     }
@@ -157,7 +163,10 @@ class FindHubs {
     const std::vector<std::uint32_t> before = result_.of;
     const auto number = static_cast<std::uint32_t>(result_.hubs.size());
     std::fill(runs_out_.begin(), runs_out_.end(), 0);
-    Growth growth{.number = number, .joins = joins, .least_filled = least_filled};
+    Growth growth{.number = number,
+                  .joins = joins,
+                  .may_be_filled_alone = least_filled == kFilled,
+                  .least_filled = least_filled};
     do {
       result_.of = before;
       growth.all = {};
@@ -166,15 +175,16 @@ class FindHubs {
         growth.all.add(moments_[v]);
       }
     } while (!grow(growth));
+    const std::vector<std::uint32_t> grown = result_.of;
     if (is_hub(growth)) {
       growth.hub.joint = joint_of(number, growth.hub.centre);
       result_.hubs.push_back(growth.hub);
-      found_filled_.push_back(filled(growth.all, growth.hub));
+      found_filled_.push_back(growth.filled);
       return true;
     }
     joins = !growth.has_joined;
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (result_.of[v] == number && joins) is_tried_[v] = 1;
+      if (grown[v] == number && joins) is_tried_[v] = 1;
     result_.of = before;
     return false;
   }
@@ -215,11 +225,13 @@ class FindHubs {
   // What grows, to a hub perhaps.
   struct Growth {
     std::uint32_t number;
-    bool joins;           // hubs that lie in it
+    bool joins;  // hubs that lie in it
+    bool may_be_filled_alone;
     double least_filled;  // of its ellipsoid
     PlaceMoments all = {};
     LimbHub hub = {};
     bool has_joined = false;
+    double filled = 0;  // of its ellipsoid, or what its limbs leave of that one's own
   };
 
   // Until it holds no more.
@@ -273,21 +285,24 @@ class FindHubs {
   }
 
   // The middle of a ring or of what is bent lies outside the solid.  Parts it from its limbs, too.
-  bool is_hub(const Growth& growth) {
+  bool is_hub(Growth& growth) {
+    stop_.did(4 * ends_.size());
     const LimbHub& hub = growth.hub;
-    const bool is_filled = filled(growth.all, hub) >= growth.least_filled;
-    return (is_filled || growth.least_filled == kFilled) && !is_bar(hub) &&
+    growth.filled = filled(growth.all, hub);
+    const bool is_filled = growth.filled >= growth.least_filled;
+    return (is_filled || growth.may_be_filled_alone) && !is_bar(hub) &&
            is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * hub.centre) && holds_no_limb(growth) &&
-           parts_no_limb(growth) && is_thick(growth) && (is_filled || is_filled_alone(growth.number));
+           parts_no_limb(growth) && is_thick(growth) && (is_filled || is_filled_alone(growth));
   }
 
-  bool is_filled_alone(std::uint32_t number) const {
+  bool is_filled_alone(Growth& growth) const {
     PlaceMoments left;
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (result_.of[v] == number) left.add(moments_[v]);
+      if (result_.of[v] == growth.number) left.add(moments_[v]);
     LimbHub hub;
     fit(left, hub);
-    return filled(left, hub) >= kFilledAlone;
+    growth.filled = filled(left, hub);
+    return growth.filled >= kFilledAlone;
   }
 
   // What takes the middle out of a limb leaves one in two pieces.

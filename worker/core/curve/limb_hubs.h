@@ -46,8 +46,8 @@ struct LimbHubsInput {
 /// one, if they fill one ellipsoid about as well.  Then one grows from what lies in twice the ellipsoid of that, or of what no
 /// limb has, and is the hub, if it is one.
 /// It is a hub where a ball as large is 1.4 times as thick as the thickest limb there and 1.55 times as the others, unless it
-/// fills less than 0.66 of the ellipsoid (0.74 in the second growth, and beside hubs that it might have joined), and in the
-/// first growth what its limbs leave of it less than 0.85 of its own, a network,
+/// fills less than 0.66 of the ellipsoid (0.74 in the second growth, and beside hubs that it might have joined), and, of one that
+/// is the first to grow from its body, what its limbs leave of it less than 0.85 of its own, a network,
 /// is 2.25 times as long as wide, a limb, has its middle outside the solid, a ring, or holds the middle of a limb and neither
 /// end.  Its limbs begin where they leave the ellipsoid, or within, where their sections are as beyond, or beyond, where
 /// these suddenly grow.

@@ -22,7 +22,7 @@ struct ContinuedField {
 /// from neighbouring places (26), as in a vector distance transform (Danielsson 1980).
 /// @param value of a sample point.
 /// @param gradient of a sample point, per spacing; asked for next to the surface alone.
-/// @param reach per sample point: which places are asked for, those no more steps away along each axis, >= 1.
+/// @param reach per sample point: which places are asked for, those no more steps away along each axis.
 /// @param threads >= 1; the result does not depend on it.
 /// @return the band is the hull, row by row, of the places asked for.
 ContinuedField continued_field(const Lattice& lattice, const std::function<double(std::uint32_t)>& value,

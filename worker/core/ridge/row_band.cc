@@ -15,22 +15,21 @@ RowBand::RowBand(const Lattice& lattice, std::int32_t widest, const MarginOf& ma
       rows_(static_cast<std::size_t>(ends_[0] + widest) * static_cast<std::size_t>(ends_[1] + widest)) {
   struct Stretch {
     std::size_t row;
-    Row places;
+    std::int32_t begin, end;
   };
   std::vector<std::vector<Stretch>> of_margin(static_cast<std::size_t>(widest) + 1);
   for (const LatticeRun& run : lattice.axis[2].runs) {
     const std::size_t row =
         index(static_cast<std::int32_t>(run.start[0]), static_cast<std::int32_t>(run.start[1]));
+    const auto place = [&](std::uint32_t n) { return static_cast<std::int32_t>(run.start[2] + n); };
     for (std::uint32_t begin = 0, end = 0; begin < run.length; begin = end) {
       const std::uint8_t margin = margin_of(run.first + begin);
       while (end < run.length && margin_of(run.first + end) == margin) ++end;
-      of_margin[margin].push_back(
-          {row,
-           {static_cast<std::int32_t>(run.start[2] + begin), static_cast<std::int32_t>(run.start[2] + end)}});
+      of_margin[margin].push_back({row, place(begin), place(end)});
     }
   }
   for (std::size_t margin = of_margin.size(); margin-- > 0;) {
-    for (const auto& [row, places] : of_margin[margin]) rows_[row].include(places);
+    for (const auto& [row, begin, end] : of_margin[margin]) rows_[row].include({begin, end});
     if (margin > 0) widen_by_one();
   }
   number_places();

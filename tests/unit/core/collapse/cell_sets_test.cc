@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <utility>
 
 #include "core/collapse/lattice_solids.h"
 #include "core/test_solids.h"
@@ -30,6 +31,12 @@ TEST(CellValues, AreOneForEachCell) {
         ++cells;
       });
       EXPECT_EQ(places.size(), cells);
+      std::size_t visited = 0;
+      values.for_each([&](DualComplex::Cell cell, std::uint16_t& value) {
+        EXPECT_EQ(&value, &values[cell]);
+        visited += std::exchange(value, std::uint16_t{2}) == 1;
+      });
+      EXPECT_EQ(visited, cells) << "each once";
       EXPECT_EQ(std::ranges::max(places) - std::ranges::min(places) + 1, cells) << "there are no others";
     }
   }

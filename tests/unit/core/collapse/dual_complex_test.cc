@@ -45,7 +45,8 @@ TEST(DualComplex, NamesCellsAlikeFromAllTheirCubes) {
       const auto cofaces = complex.cofaces(cell);
       EXPECT_EQ(std::set<Cell>(cofaces.begin(), cofaces.end()).size(), cofaces.count);
       EXPECT_EQ(complex.coface_count(cell), cofaces.count);
-      for (std::uint32_t n = 0; n < cofaces.count; ++n) EXPECT_EQ(complex.face(cofaces.cells[n], cofaces.sides[n]), cell);
+      for (std::uint32_t n = 0; n < cofaces.count; ++n)
+        EXPECT_EQ(complex.face(cofaces.cells[n], cofaces.sides[n]), cell);
       for (const Cell coface : cofaces) {
         int met = 0;
         complex.for_each_face(coface, [&](Cell face) { met += face == cell; });
