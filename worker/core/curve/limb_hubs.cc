@@ -4,11 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "core/base/median.h"
-#include "core/base/plain_math.h"
-#include "core/base/symmetric_eigen.h"
 #include "core/curve/parted_lines.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/lattice/lattice_points.h"
@@ -19,7 +16,6 @@ namespace {
 
 constexpr double kThick = 1.55;           // times as thick as all its limbs but the thickest
 constexpr double kThicker = 1.4;          // times as thick as the thickest
-constexpr double kGrown = 1.1;            // times the ellipsoid: what lies just outside is no limb's
 constexpr double kFilled = 0.66;          // of the ellipsoid with its moments: a network fills less
 constexpr double kFilledStrictly = 0.74;  // from about a body, or beside others: half of a gear fills less
 constexpr double kFilledAlone = 0.85;  // with what its limbs leave it: ends of these fill the ellipsoid less
@@ -28,9 +24,6 @@ constexpr double kAsFilled = 0.9;      // times what those that it joins fill of
 constexpr double kTaken =
     1.5;  // times what has grown, with what of limbs that it would grow along lies in it
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
-constexpr double kBar = 2.25;    // times as long as wide: a limb, which grows where it turns a corner
-
-constexpr double kPerBall = 0.75 / std::numbers::pi;  // a ball's cubed radius, of its volume
 
 class FindHubs {
  public:
@@ -144,8 +137,7 @@ class FindHubs {
     PlaceMoments all;
     for (const std::uint32_t v : own) all.add(moments_[v]);
     if (!(all.count > 0)) return false;
-    LimbHub about;
-    fit(all, about);
+    HubEllipsoid about = ellipsoid_of(all);
     about.form = (1 / (kAbout * kAbout)) * about.form;
     const std::size_t before = own.size();
     std::vector<char> is_own(ends_.size(), 0);
@@ -177,8 +169,7 @@ class FindHubs {
     } while (!grow(growth));
     const std::vector<std::uint32_t> grown = result_.of;
     if (is_hub(growth)) {
-      growth.hub.joint = joint_of(number, growth.hub.centre);
-      result_.hubs.push_back(growth.hub);
+      result_.hubs.push_back({growth.hub, joint_of(number, growth.hub.centre)});
       found_filled_.push_back(growth.filled);
       return true;
     }
@@ -215,12 +206,10 @@ class FindHubs {
     result_.hubs = std::move(hubs);
   }
 
-  double volume_of(double count) const {
-    return in_.lattice.spacing * in_.lattice.spacing * in_.lattice.spacing * count;
+  HubEllipsoid ellipsoid_of(const PlaceMoments& points) const {
+    return HubEllipsoid::of(points, in_.lattice.spacing);
   }
-  double radius_of(double count) const {  // of a ball
-    return count > 0 ? cube_root(kPerBall * volume_of(count)) : 0;
-  }
+  double radius_of(double count) const { return ball_radius(count, in_.lattice.spacing); }
 
   // What grows, to a hub perhaps.
   struct Growth {
@@ -229,7 +218,7 @@ class FindHubs {
     bool may_be_filled_alone;
     double least_filled;  // of its ellipsoid
     PlaceMoments all = {};
-    LimbHub hub = {};
+    HubEllipsoid hub = {};
     bool has_joined = false;
     double filled = 0;  // of its ellipsoid, or what its limbs leave of that one's own
   };
@@ -240,7 +229,7 @@ class FindHubs {
   bool grow(Growth& growth) {
     bool runs_out = false;
     for (bool grows = true; grows && !runs_out;) {
-      fit(growth.all, growth.hub);
+      growth.hub = ellipsoid_of(growth.all);
       grows = growth.joins && join(growth);
       growth.has_joined = growth.has_joined || grows;
       stop_.did(8 * ends_.size());
@@ -257,7 +246,7 @@ class FindHubs {
   }
 
   // The middle of what is nearest to a vertex: lines may run along the rim of a head.
-  bool holds(const LimbHub& hub, std::uint32_t v) const {
+  bool holds(const HubEllipsoid& hub, std::uint32_t v) const {
     return hub.outside(moments_[v].count > 0 ? moments_[v].centre() : in_.places[v]) < 0;
   }
 
@@ -287,10 +276,10 @@ class FindHubs {
   // The middle of a ring or of what is bent lies outside the solid.  Parts it from its limbs, too.
   bool is_hub(Growth& growth) {
     stop_.did(4 * ends_.size());
-    const LimbHub& hub = growth.hub;
-    growth.filled = filled(growth.all, hub);
+    const HubEllipsoid& hub = growth.hub;
+    growth.filled = hub.filled_by(growth.all, in_.lattice.spacing);
     const bool is_filled = growth.filled >= growth.least_filled;
-    return (is_filled || growth.may_be_filled_alone) && !is_bar(hub) &&
+    return (is_filled || growth.may_be_filled_alone) && !hub.is_bar() &&
            is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * hub.centre) && holds_no_limb(growth) &&
            parts_no_limb(growth) && is_thick(growth) && (is_filled || is_filled_alone(growth));
   }
@@ -299,9 +288,7 @@ class FindHubs {
     PlaceMoments left;
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
       if (result_.of[v] == growth.number) left.add(moments_[v]);
-    LimbHub hub;
-    fit(left, hub);
-    growth.filled = filled(left, hub);
+    growth.filled = ellipsoid_of(left).filled_by(left, in_.lattice.spacing);
     return growth.filled >= kFilledAlone;
   }
 
@@ -370,25 +357,6 @@ class FindHubs {
     while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) result_.of[line[--first]] = kNone;
   }
 
-  // What it is of its ellipsoid: a network of rods is little.
-  double filled(const PlaceMoments& all, const LimbHub& hub) const {
-    const double ball = kPerBall * volume_of(all.count) * kGrown * kGrown * kGrown;
-    return ball * std::sqrt(determinant(hub.form));
-  }
-
-  bool is_bar(const LimbHub& hub) const {
-    const auto steep = symmetric_eigen(hub.form).values;  // one over the squares of the axes
-    return steep[1] > kBar * kBar * steep[2];
-  }
-
-  // The mean square of a place in a ball, along an axis, is a fifth of the radius', in a cube a twelfth of the edge's.
-  void fit(const PlaceMoments& all, LimbHub& hub) const {
-    hub.centre = all.centre();
-    const Matrix3 spread =
-        (1 / all.count) * all.about_centre() + square_in_cell(in_.lattice.spacing) * kIdentity3;
-    hub.form = (1 / (5 * kGrown * kGrown)) * inverse_transposed(spread);
-  }
-
   const LimbHubsInput& in_;
   std::vector<std::uint32_t> ends_;    // of lines, per vertex
   std::vector<char> is_tried_;         // per vertex: held by what has grown, and was no hub
@@ -402,14 +370,6 @@ class FindHubs {
 };
 
 }  // namespace
-
-// By how it grows there: along the way from the centre the rim of a flat body would be far away.
-double LimbHub::outside(const Vec3& at) const {
-  const Vec3 way = at - centre, steep = form * way;
-  const double square = dot(way, steep);
-  if (!(square > 0)) return -std::numeric_limits<double>::infinity();
-  return (square - std::sqrt(square)) / norm(steep);
-}
 
 LimbHubs limb_hubs(const LimbHubsInput& input) {
   return FindHubs(input).run();

@@ -1,26 +1,20 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/base/execution_context.h"
-#include "core/base/matrix3.h"
 #include "core/base/none.h"
 #include "core/base/vec3.h"
+#include "core/curve/hub_ellipsoid.h"
 #include "core/lattice/lattice.h"
 
 namespace affskel::core {
 
 /// A body that limbs hang on, as an octopus's head, an elephant's torso or a chair's seat: an ellipsoid.
-struct LimbHub {
+struct LimbHub : HubEllipsoid {
   std::uint32_t joint = 0;  ///< the vertex that stands for it
-  Vec3 centre;
-  Matrix3 form{};  ///< (form * way) . way is 1 on the ellipsoid
-
-  /// About how far a place is outside; within less than 0.
-  double outside(const Vec3& at) const;
 };
 
 struct LimbHubs {

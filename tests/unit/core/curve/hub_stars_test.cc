@@ -36,14 +36,14 @@ struct Plate : DrawnLines {
   // @param other the joint of another hub, of that alone.
   void draw(const Vec3& axes = {3, 3, 1}, std::uint32_t other = kNone) {
     const auto square = [](double axis) { return 1 / (axis * axis); };
-    hubs.hubs = {{0, middle, {{{square(axes.x), 0, 0}, {0, square(axes.y), 0}, {0, 0, square(axes.z)}}}}};
+    hubs.hubs = {{{middle, {{{square(axes.x), 0, 0}, {0, square(axes.y), 0}, {0, 0, square(axes.z)}}}}, 0}};
     for (const Vec3& at : places) {
       hubs.of.push_back(hubs.hubs[0].outside(at) < 0 ? 0 : kNone);
       curve.vertices.emplace_back().position = at;
       curve.part.push_back(0);
     }
     if (other != kNone) {
-      hubs.hubs.push_back({other, places[other], kIdentity3});
+      hubs.hubs.push_back({{places[other], kIdentity3}, other});
       hubs.of[other] = 1;
     }
     curve.segments = segments;

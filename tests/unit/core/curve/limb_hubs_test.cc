@@ -88,14 +88,6 @@ TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
     EXPECT_EQ(found.at(v) == &hub, norm(cube.places[v] - cube.middle) < axis) << v;
 }
 
-TEST(LimbHubs, TheRimOfAFlatOneIsAsFarAsItIs) {
-  const LimbHub plate{0, {}, {{{1. / 400, 0, 0}, {0, 1. / 400, 0}, {0, 0, 1}}}};  // 20 wide, 1 high
-  EXPECT_NEAR(plate.outside({15, 0, 1}), 1 - std::sqrt(1 - 0.75 * 0.75), 0.1)
-      << "above it, not towards its centre";
-  EXPECT_NEAR(plate.outside({21, 0, 0}), 1, 0.05);
-  EXPECT_NEAR(plate.outside({0, 0, 3}), 2, 1e-12);
-}
-
 void expect_one_hub(const Cube& body, std::uint32_t one, std::uint32_t other, double tolerance) {
   const LimbHubs found = body.found();
   ASSERT_EQ(found.hubs.size(), 1U);

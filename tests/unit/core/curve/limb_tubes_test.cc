@@ -190,7 +190,7 @@ TEST(LimbTubes, AHubHasItsEllipsoid) {
   lines.of_hub = static_cast<std::uint32_t>(lines.places.size());
   for (std::size_t n = 0; n < 4; ++n) lines.go(roots[n], step[n], 60, 0.5);
   const Vec3 above{0.2, 0, 1};
-  lines.hubs = {{body, above, {{{0.25, 0, 0}, {0, 0.25, 0}, {0, 0, 1}}}}};  // 2 wide, 1 high
+  lines.hubs = {{{above, {{{0.25, 0, 0}, {0, 0.25, 0}, {0, 0, 1}}}}, body}};  // 2 wide, 1 high
   EXPECT_EQ(lines.owner({0.2, 0, 1.95}), lines.places[body]);
   EXPECT_EQ(lines.owner({1.5, 1, 1.3}), lines.places[body]) << "nearer to a leg's line";
   EXPECT_EQ(lines.owner({0.2, 0.2, -0.3}), lines.places[body]) << "under it, nearest to its lines";
@@ -208,7 +208,7 @@ TEST(LimbTubes, ALegDoesNotGoOnIntoItsHub) {
   const std::uint32_t above = lines.go(body, {0.2, 0, 0}, 15, 1);
   lines.of_hub = above + 1;
   lines.go(above, {0, 0, -0.1}, 60, 0.6);
-  lines.hubs = {{body, {}, {{{1. / 9.2, 0, 0}, {0, 1. / 9.2, 0}, {0, 0, 9}}}}};  // up to there, flat
+  lines.hubs = {{{{}, {{{1. / 9.2, 0, 0}, {0, 1. / 9.2, 0}, {0, 0, 9}}}}, body}};  // up to there, flat
   EXPECT_EQ(lines.owner({3.2, 0, 0.3}, above + 1), lines.places[body]);
   EXPECT_LT(lines.owner({3.2, 0, -0.4}).z, -0.1) << "the leg's";
 }
