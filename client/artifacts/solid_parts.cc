@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <utility>
 
 #include "client/base/error.h"
 
@@ -58,6 +60,26 @@ core::Mesh surface_of(const v1::SolidParts& parts) {
   for (int t = 0; t < surface.corners_size(); t += 3)
     mesh.triangles.push_back({surface.corners(t), surface.corners(t + 1), surface.corners(t + 2)});
   return mesh;
+}
+
+ThicknessScale thickness_scale(const v1::SolidParts& parts) {
+  constexpr double kRest = 0.01, kMore = 4.0 / 3;
+  const core::Mesh surface = surface_of(parts);
+  std::vector<std::pair<double, double>> thickest;  // with the area
+  double rest = 0;
+  for (int t = 0; t < parts.thickness_size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(t)];
+    const core::Vec3& p = surface.points[a];
+    const double area = core::norm(core::cross(surface.points[b] - p, surface.points[c] - p));
+    thickest.emplace_back(parts.thickness(t), area);
+    rest += kRest * area;
+  }
+  if (thickest.empty()) return {};
+  std::sort(thickest.begin(), thickest.end(), std::greater<>());
+  std::size_t first = 0;  // of those that are not left out
+  while (first + 1 < thickest.size() && thickest[first].second <= rest) rest -= thickest[first++].second;
+  const double all = thickest.front().first, most = thickest[first].first;
+  return all > kMore * most && most > 0 ? ThicknessScale{most, true} : ThicknessScale{all, false};
 }
 
 std::vector<Rgb> colours_of(const v1::SolidParts& parts) {

@@ -16,6 +16,16 @@ v1::SolidParts parse_solid_parts(const std::string& bytes);
 /// The solid's surface: its triangles have parts and a thickness.
 core::Mesh surface_of(const v1::SolidParts& parts);
 
+/// What the colours of thickness go up to.
+struct ThicknessScale {
+  double highest = 0;      ///< mesh units, > 0 unless all are 0
+  bool is_passed = false;  ///< a hundredth of the surface, at most, is thicker, and has the last colour
+};
+
+/// Up to the greatest, unless a hundredth of the surface has a third more than all the rest: where there is no skeleton below
+/// a triangle, its thickness tells how far away one is, and few such would leave one colour to all others.
+ThicknessScale thickness_scale(const v1::SolidParts& parts);
+
 /// Per part, from the first: see part_colours().
 std::vector<Rgb> colours_of(const v1::SolidParts& parts);
 

@@ -60,7 +60,8 @@ void draw_rows(Image& image, const Legend& legend, ScreenPoint at) {
 void draw_ticks(Image& image, const Legend& legend, ScreenPoint at, double width) {
   for (int tick = 0; tick <= 4; ++tick) {
     const double t = tick / 4.0, share = legend.scale.cubic ? t * t * t : t;
-    const std::string label = tick == 0 ? "0" : base::rounded(share * legend.scale.highest, 2);
+    std::string label = tick == 0 ? "0" : base::rounded(share * legend.scale.highest, 2);
+    if (tick == 4 && legend.scale.is_passed) label += "+";
     const double size = kSmall * legend.text, text = text_width(label, size);
     const double x = at.x + t * (width - 1);
     const double start = std::clamp(x - text / 2, at.x, std::max(at.x, at.x + width - text));

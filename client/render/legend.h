@@ -21,8 +21,9 @@ Ink ink_on(Rgb background);
 /// What viridis stands for.
 struct ColourScale {
   std::string title, note;
-  double highest = 0;  ///< of the last colour, as it is labelled; 0: there is no scale
-  bool cubic = false;  ///< the colour follows the cube root
+  double highest = 0;      ///< of the last colour, as it is labelled; 0: there is no scale
+  bool cubic = false;      ///< the colour follows the cube root
+  bool is_passed = false;  ///< the last colour stands for more, too
 };
 
 /// That of E. @param volume v0, of which E is labelled as a share; 0: E itself is.

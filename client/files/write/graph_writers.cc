@@ -1,4 +1,6 @@
 // A curve skeleton as a graph, in JSON and in GraphML (Brandes, Eiglsperger, Lerner and Pich, 2013).
+#include <algorithm>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 #include "base/number_text.h"
@@ -61,6 +63,23 @@ std::string polyline_text(const ShapeFile& shape, const core::CurveBranch& branc
   return text;
 }
 
+// Per node: the branch that is a body there, or none.
+std::vector<const core::CurveBranch*> bodies_of(const core::CurveGraph& graph) {
+  std::vector<const core::CurveBranch*> bodies(graph.nodes.size(), nullptr);
+  for (const core::CurveBranch& branch : graph.branches)
+    if (branch.kind == core::BranchKind::kPoint) bodies[branch.from] = &branch;
+  return bodies;
+}
+
+// How much of a branch's line runs within the bodies that it hangs on.
+double length_in_bodies(const ShapeFile& shape, const core::CurveBranch& branch) {
+  double length = 0;
+  for (std::size_t v = 1; v < branch.vertices.size(); ++v)
+    length +=
+        core::norm(shape.mesh().points[branch.vertices[v]] - shape.mesh().points[branch.vertices[v - 1]]);
+  return std::max(0.0, length - branch.length);
+}
+
 }  // namespace
 
 void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& comments,
@@ -70,9 +89,14 @@ void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& co
                     {"nodes", ordered_json::array()},
                     {"branches", ordered_json::array()}};
   for (const std::string& comment : comments) file["about"].push_back(one_line(comment));
+  const auto bodies = bodies_of(graph);
   for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
     ordered_json node = vertex_of(shape, graph.nodes[n]);
     node["degree"] = graph.degree[n];
+    if (bodies[n] != nullptr) {
+      node["part"] = bodies[n] - graph.branches.data() + 1;
+      node["volume_share"] = bodies[n]->share;
+    }
     file["nodes"].push_back(std::move(node));
   }
   for (std::size_t b = 0; b < graph.branches.size(); ++b) {
@@ -85,6 +109,7 @@ void write_curve_json(const ShapeFile& shape, const std::vector<std::string>& co
                                 {"nodes", {branch.from, branch.to}},
                                 {"length", branch.length},
                                 {"straight_length", branch.straight_length},
+                                {"length_in_bodies", length_in_bodies(shape, branch)},
                                 {"volume_share", branch.share},
                                 {"mean_radius", branch.mean_radius},
                                 {"least_radius", branch.least_radius},
@@ -100,14 +125,16 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
   GraphMl xml(write);
   write(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
-  for (const char* name : {"x", "y", "z", "E", "radius", "distance"}) xml.key("node", name, "double");
-  for (const char* name :
-       {"length", "straight_length", "volume_share", "mean_radius", "least_radius", "greatest_radius"})
+  for (const char* name : {"x", "y", "z", "E", "radius", "distance", "volume_share"})
+    xml.key("node", name, "double");
+  for (const char* name : {"length", "straight_length", "length_in_bodies", "volume_share", "mean_radius",
+                           "least_radius", "greatest_radius"})
     xml.key("edge", name, "double");
   xml.key("edge", "polyline", "string");
   write("  <graph edgedefault=\"undirected\">\n    <desc>");
   for (const std::string& comment : comments) write(xml_text(comment) + "\n");
   write("</desc>\n");
+  const auto bodies = bodies_of(graph);
   for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
     const core::Vec3& at = shape.mesh().points[graph.nodes[n]];
     write("    <node id=\"n" + std::to_string(n) + "\">\n");
@@ -116,6 +143,7 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
     xml.data("node", "z", at.z);
     for (const char* name : {"E", "radius", "distance"})
       xml.data("node", name, curve_column(shape, name)[graph.nodes[n]]);
+    if (bodies[n] != nullptr) xml.data("node", "volume_share", bodies[n]->share);
     write("    </node>\n");
   }
   for (std::size_t b = 0; b < graph.branches.size(); ++b) {
@@ -125,6 +153,7 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
           "\" target=\"n" + std::to_string(branch.to) + "\">\n");
     xml.data("edge", "length", branch.length);
     xml.data("edge", "straight_length", branch.straight_length);
+    xml.data("edge", "length_in_bodies", length_in_bodies(shape, branch));
     xml.data("edge", "volume_share", branch.share);
     xml.data("edge", "mean_radius", branch.mean_radius);
     xml.data("edge", "least_radius", branch.least_radius);

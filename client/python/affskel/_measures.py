@@ -73,7 +73,7 @@ class Measures(Saveable):
     def graph(self) -> Any:
         """A networkx.MultiGraph: nodes are vertices of `curve` where branches end or meet, with place, E and radius; edges
         are parts, with the numbers of `table` and the `polyline` (k, 3), and links, which are no part: with the polyline
-        alone, and part None.  A part without a line is a node alone."""
+        alone, and part None.  A part without a line is a node, with the numbers."""
         import networkx
         graph = networkx.MultiGraph()
         places = self.curve.vertices
@@ -82,9 +82,12 @@ class Measures(Saveable):
                 graph.add_node(vertex, place=tuple(places[vertex]),
                                **{name: float(self.curve.attributes[name][vertex]) for name in ("E", "radius")})
         for row, branch in enumerate(self.branches):
+            known = {"part": row + 1, "kind": self.kinds[row],
+                     **{name: float(values[row]) for name, values in self.numbers.items()}}
             if len(branch) > 1:
-                graph.add_edge(int(branch[0]), int(branch[-1]), part=row + 1, kind=self.kinds[row], polyline=places[branch],
-                               **{name: float(values[row]) for name, values in self.numbers.items()})
+                graph.add_edge(int(branch[0]), int(branch[-1]), polyline=places[branch], **known)
+            else:
+                graph.add_node(int(branch[0]), **known)
         for branch in self.links:
             graph.add_edge(int(branch[0]), int(branch[-1]), part=None, kind="link", polyline=places[branch])
         return graph

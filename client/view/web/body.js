@@ -23,6 +23,8 @@ export class Body {
     this.page = page;
     this.models = models.filter(({ facts }) => facts.parts.length > 0);
     this.changed = changed;
+    const scales = this.models.map(({ facts }) => facts.thickness);
+    this.thickness = { highest: Math.max(0, ...scales.map((s) => s.highest)), isPassed: scales.some((s) => s.isPassed) };
     this.select = element('body-colour');
     this.select.parentElement.hidden = this.models.length === 0;
     this.select.addEventListener('change', () => this.choose(this.select.value));
@@ -43,10 +45,9 @@ export class Body {
   // what: a value of the choice; others are nothing.
   show(what) {
     this.select.value = what in kOpacity && this.models.length > 0 ? what : '';
-    for (const model of this.models) model.colourBody(this.chosen, 0);
+    for (const model of this.models) model.colourBody(this.chosen, 0, this.thickness.highest);
     element('parts').hidden = this.chosen !== 'part';
-    const thickest = Math.max(0, ...this.models.map((model) => model.thickest()));
-    labelLegend(element('legend'), this.chosen === 'thickness' ? thicknessScale(thickest) : erosionScale(this.page));
+    labelLegend(element('legend'), this.chosen === 'thickness' ? thicknessScale(this.thickness) : erosionScale(this.page));
   }
 
   tableOf(model, models) {
@@ -71,7 +72,7 @@ export class Body {
   }
 
   highlight(model, number) {
-    model.colourBody(this.chosen, number);
+    model.colourBody(this.chosen, number, this.thickness.highest);
     this.changed(null);
   }
 }

@@ -71,23 +71,18 @@ export class Model {
    * do.
    * @param {string} what
    * @param {number} chosen
+   * @param {number} highest of thickness, of the last colour, mesh units
    */
-  colourBody(what, chosen) {
+  colourBody(what, chosen, highest) {
     const { parts, arrays } = this.facts;
     if (parts.length === 0 || what === '') return this.glass.tint(null);
     if (what === 'thickness') {
-      const highest = this.thickest();
       return this.glass.tint((t) => viridis(arrays.meshThickness[t] / highest).map((c) => c / 255));
     }
     return this.glass.tint((t) => {
       const part = arrays.meshParts[t];
       return chosen === 0 || chosen === part ? parts[part - 1].colour : kOthers;
     });
-  }
-
-  /** @returns {number} the greatest thickness, mesh units */
-  thickest() {
-    return this.facts.arrays.meshThickness.reduce((most, value) => Math.max(most, value), 0);
   }
 
   /**

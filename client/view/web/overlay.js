@@ -66,18 +66,18 @@ export function paintLegend(element, lift) {
 }
 
 /**
- * valueAt: of a place on the scale, 0 .. 1.
+ * valueAt: of a place on the scale, 0 .. 1; isPassed: the last colour stands for more, too.
  * @param {Element} element
- * @param {{ title: string, note: string, valueAt: (tick: number) => number }} scale
+ * @param {{ title: string, note: string, valueAt: (tick: number) => number, isPassed?: boolean }} scale
  */
-export function labelLegend(element, { title, note, valueAt }) {
+export function labelLegend(element, { title, note, valueAt, isPassed = false }) {
   partOf(element, '.heading').textContent = title;
   partOf(element, '.note').textContent = note;
   const numbers = partOf(element, '.numbers');
   numbers.replaceChildren(
     ...kTicks.map((tick) =>
       Object.assign(numbers.ownerDocument.createElement('span'), {
-        textContent: tick === 0 ? '0' : rounded(valueAt(tick), 2),
+        textContent: tick === 0 ? '0' : rounded(valueAt(tick), 2) + (tick === 1 && isPassed ? '+' : ''),
       }),
     ),
   );
@@ -95,10 +95,11 @@ export const erosionScale = ({ highestShare, scaleTitle, scaleNote }) => ({
 
 /**
  * Of the body's thickness, evenly.
- * @param {number} thickest
+ * @param {{ highest: number, isPassed: boolean }} thickness see thickness_scale() in client/artifacts/solid_parts.h
  */
-export const thicknessScale = (thickest) => ({
+export const thicknessScale = ({ highest, isPassed }) => ({
   title: 'Thickness, mesh units',
   note: 'From the surface to the skeleton',
-  valueAt: (tick) => tick * thickest,
+  valueAt: (tick) => tick * highest,
+  isPassed,
 });

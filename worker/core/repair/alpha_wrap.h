@@ -15,8 +15,9 @@ struct AlphaWrapOptions {
 };
 
 /// A closed manifold surface round triangles or points in any state (CGAL's Alpha_wrap_3; Portaneri et al. 2022).
-/// Its vertices are then moved inward by the offset, so that the volume is that of what was wrapped, but for what the ball
-/// does not reach: hollows narrower than alpha and, from outside, cavities, however wide; see wrap_solid.
+/// Its vertices are then moved inward by the offset, or as far as the surface meets itself nowhere, so that the volume is that
+/// of what was wrapped, but for what the ball does not reach: hollows narrower than alpha and, from outside, cavities, however
+/// wide; see wrap_solid.
 /// @param mesh triangles, or points alone.
 /// @return from a place within: the wall of its cavity, facing into it as a solid's does, and what lies in it; no triangles
 ///   where there is no room for the ball.

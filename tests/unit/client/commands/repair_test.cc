@@ -16,6 +16,16 @@ namespace {
 
 using nlohmann::json;
 
+core::Mesh overlapping_cubes() {
+  core::Mesh two = core::make_box(2000, 2000, 2000, 2);
+  const auto second = static_cast<std::uint32_t>(two.points.size());
+  const core::Mesh one = two;
+  for (const core::Vec3& place : one.points) two.points.push_back(place + core::Vec3{990, 970, 1030});
+  for (const core::Triangle& t : one.triangles)
+    two.triangles.push_back({second + t[0], second + t[1], second + t[2]});
+  return two;
+}
+
 TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   core::Mesh cube = core::make_box(2000, 2000, 2000, 2);
   cube.triangles.pop_back();
@@ -31,13 +41,7 @@ TEST_F(ClientTest, RepairNeedsNoServerAndTellsEachStep) {
   EXPECT_NE(sound.out.find("sound:"), std::string::npos) << sound.out;
 
   // Two cubes that overlap: told, not mended.
-  core::Mesh two = core::make_box(2000, 2000, 2000, 2);
-  const auto second = static_cast<std::uint32_t>(two.points.size());
-  const core::Mesh one = two;
-  for (const core::Vec3& place : one.points) two.points.push_back(place + core::Vec3{990, 970, 1030});
-  for (const core::Triangle& t : one.triangles)
-    two.triangles.push_back({second + t[0], second + t[1], second + t[2]});
-  tests::write_file(dir_ / "two.off", core::write_off(two));
+  tests::write_file(dir_ / "two.off", core::write_off(overlapping_cubes()));
   const Outcome crossing = run({"--json", "repair", dir_ / "two.off", "-o", dir_ / "two.ply"});
   EXPECT_EQ(crossing.exit_code, 0);
   EXPECT_EQ(json::parse(crossing.out).at("warnings").at(0).at("code"), "self-intersecting");
@@ -107,6 +111,20 @@ TEST_F(ClientTest, CavitiesThatAWrapClosesAreWarnedOf) {
   EXPECT_EQ(run({"repair", dir_ / "hollow.off", "--repair", "wrap=400", "-o", dir_ / "kept.off"})
                 .err.find("cavity closed"),
             std::string::npos);
+}
+
+// The worker's has lines of the file that was sent, the client's none.
+TEST_F(ClientTest, AWarningOfWhatWasRepairedIsTheJobsToo) {
+  core::Mesh open = overlapping_cubes();
+  open.triangles.pop_back();
+  tests::write_file(dir_ / "two.off", core::write_off(open));
+  v1::MeshNote& note = *service_.job.mutable_prepared()->add_notes();
+  note.set_severity("warning");
+  note.set_code("self-intersecting");
+  note.set_message("3 pairs of triangles cross or touch each other, the first: triangle 1 (line 9)");
+  const std::string said = run({"submit", dir_ / "two.off", "--repair", "fill=1e6", "--wait"}).err;
+  EXPECT_NE(said.find("cross or touch"), std::string::npos) << said;
+  EXPECT_EQ(said.find("cross or touch"), said.rfind("cross or touch")) << said;
 }
 
 TEST_F(ClientTest, CloudsOfPointsAreWrappedWhenAsked) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/perturb.h"
 #include "core/repair/repaired.h"
 #include "core/shapes/body.h"
 #include "core/shapes/shapes.h"
@@ -54,6 +55,14 @@ TEST(WrapSolid, IsNotComparedWithWhatCountsTwice) {
     EXPECT_LT(repaired.volume, 0.97 * volume_of(mesh));
     EXPECT_EQ(step(repaired, "wrap-volume"), nullptr) << step(repaired, "wrap-volume")->message;
   }
+}
+
+// Walls of folds that noise makes pass each other where all of a wrap moves inward as far.
+TEST(WrapSolid, MeetsItselfNowhere) {
+  const Mesh body = perturb(make_body({.triangles = 500}), {.sigma = 20, .seed = 1});
+  ASSERT_TRUE(make_solid(body).self_intersecting);
+  const RepairedMesh repaired = repair_mesh(body, {.kind = RepairKind::kWrap, .alpha = 20});
+  EXPECT_FALSE(make_solid(repaired.mesh).self_intersecting);
 }
 
 TEST(WrapSolid, ClosesHolesThatAreWiderThanAlpha) {

@@ -78,6 +78,15 @@ TEST(CurveGraph, OfABodyWithLimbsHasTheirNumbersAsParts) {
   const auto file = nlohmann::json::parse(text);
   ASSERT_EQ(file["branches"].size(), 4U);
   EXPECT_EQ(file["branches"][0]["part"], 2);
+  EXPECT_EQ(file["nodes"][1]["part"], 1);
+  EXPECT_EQ(file["nodes"][1]["volume_share"], 0.5);
+  EXPECT_FALSE(file["nodes"][0].contains("part"));
+  double sum = 0;
+  for (const char* list : {"nodes", "branches"})
+    for (const auto& one : file[list]) sum += one.value("volume_share", 0.0);
+  EXPECT_NEAR(sum, 1, 1e-12) << "with the place that has no line";
+  EXPECT_EQ(file["branches"][0]["length_in_bodies"], 1);
+  EXPECT_EQ(file["branches"][0]["length"], 1);
 }
 
 TEST(CurveGraph, IsGraphMl) {
