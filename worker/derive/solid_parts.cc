@@ -9,6 +9,7 @@
 #include "core/collapse/dual_complex.h"
 #include "core/curve/parted_surface.h"
 #include "core/lattice/lattice_coordinates.h"
+#include "core/ridge/local_thickness.h"
 #include "core/spatial/point_index.h"
 #include "core/surface/surface_thickness.h"
 #include "derive/curve_of_field.h"
@@ -122,17 +123,30 @@ class Parts {
     return skeleton;
   }
 
+  // The lattice's, in a frame that is stretched the longest; scaled units.
+  double longest_step() const {
+    const core::Lattice& lattice = field_.lattice();
+    const core::Vec3 origin = core::scaled_place(lattice, {});
+    double longest = 0;
+    for (const core::Vec3& step : {core::Vec3{1, 0, 0}, core::Vec3{0, 1, 0}, core::Vec3{0, 0, 1}})
+      longest = std::max(longest, core::norm(core::scaled_place(lattice, step) - origin));
+    return longest;
+  }
+
   void add_thickness() {
     std::vector<core::Vec3> inward;
     inward.reserve(surface_.point.size());
     for (const std::uint32_t point : surface_.point)
       inward.push_back(point == core::kNone ? core::Vec3{} : field_.normal(point));
-    core::ThicknessOptions options;
-    options.near = 0.5 * field_.lattice().spacing / solid_.scale();
-    options.threads = field_.threads();
-    options.context = field_.context();
+    const core::RidgeBasis& basis = ridge_.basis();
+    const double spacing = longest_step();
+    std::vector<double> about;
+    for (const float radius : core::local_thickness(basis.complex, basis.radius, surface_.point,
+                                                    {field_.threads(), field_.context()}))
+      about.push_back(spacing * static_cast<double>(radius));
+    const core::ThicknessOptions options{0.5 * spacing, field_.threads(), field_.context()};
     for (const double thickness :
-         core::surface_thickness(solid_, surface_.mesh, skeleton_in_solid(), inward, options))
+         core::surface_thickness(solid_, surface_.mesh, skeleton_in_solid(), inward, about, options))
       message_.add_thickness(thickness * solid_.scale());
   }
 

@@ -90,7 +90,8 @@ class Ways {
 }  // namespace
 
 std::vector<double> surface_thickness(const Solid& solid, const Mesh& surface, const Mesh& skeleton,
-                                      std::span<const Vec3> inward, const ThicknessOptions& options) {
+                                      std::span<const Vec3> inward, std::span<const double> about,
+                                      const ThicknessOptions& options) {
   const Ways ways(solid, skeleton, options);
   std::vector<double> result(surface.triangles.size());
   parallel_ranges(options.threads, result.size(), [&](std::size_t begin, std::size_t end) {
@@ -99,7 +100,9 @@ std::vector<double> surface_thickness(const Solid& solid, const Mesh& surface, c
       const auto& [a, b, c] = surface.triangles[t];
       const auto& points = surface.points;
       const Vec3 normal = -1.0 * unit(twice_area(surface, surface.triangles[t]));
-      result[t] = ways.thickness((1.0 / 3) * (points[a] + (points[b] + points[c])), inward[t], normal);
+      const double way = ways.thickness((1.0 / 3) * (points[a] + (points[b] + points[c])), inward[t], normal);
+      // By sample points, which are half a spacing off.
+      result[t] = way > kMostThick * (about[t] + options.near) ? about[t] : way;
     }
   });
   return result;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -27,12 +28,17 @@ Vec3 in_solid(const Solid& solid, const Vec3& place) {
   return (1 / solid.scale()) * (place - solid.centre);
 }
 
+std::vector<double> unknown(std::size_t triangles) {
+  return std::vector<double>(triangles, std::numeric_limits<double>::infinity());
+}
+
 // In mesh units.
 std::vector<double> thickness(const Solid& solid, Mesh skeleton, const std::vector<Vec3>& inward,
                               ThicknessOptions options = {}) {
   for (Vec3& point : skeleton.points) point = in_solid(solid, point);
   if (options.near == 0) options.near = 0.02 / solid.scale();
-  std::vector<double> result = surface_thickness(solid, solid.mesh, skeleton, inward, options);
+  std::vector<double> result =
+      surface_thickness(solid, solid.mesh, skeleton, inward, unknown(inward.size()), options);
   for (double& value : result) value *= solid.scale();
   return result;
 }
@@ -127,7 +133,8 @@ TEST(SurfaceThickness, BeginsWithinAnotherSolid) {
     ThicknessOptions options;
     options.near = 0.02 / both.scale();
     // 3.5 away, and at a slope of 0.8 the way comes as near as 0.5 before it leaves the outer box after 3.75.
-    EXPECT_NEAR(surface_thickness(both, surface, there, std::vector<Vec3>{{0.6, 0, 0.8 * up}}, options)[0] *
+    EXPECT_NEAR(surface_thickness(both, surface, there, std::vector<Vec3>{{0.6, 0, 0.8 * up}}, unknown(1),
+                                  options)[0] *
                     both.scale(),
                 3.5, 0.9);
   }
@@ -143,7 +150,8 @@ TEST(SurfaceThickness, BeginsOnAnEdgeOfTheSolid) {
   ThicknessOptions options;
   options.near = 0.02 / box.scale();
   const std::vector<Vec3> tilted{{0.6, 0, 0.8}};
-  EXPECT_NEAR(surface_thickness(box, surface, above, tilted, options)[0] * box.scale(), 1 / 0.8, 1e-3)
+  EXPECT_NEAR(surface_thickness(box, surface, above, tilted, unknown(1), options)[0] * box.scale(), 1 / 0.8,
+              1e-3)
       << "it leaves the box 2 up";
 }
 
@@ -167,6 +175,29 @@ TEST(SurfaceThickness, OfAWallWithoutSkeletonIsHalfOfIt) {
     if (at(t).z > 0) continue;
     EXPECT_NEAR(found[t], 0.5, 0.03);
     EXPECT_NEAR(steeply[t], norm(at(t) - Vec3{0, 0, 4.5}), 1e-9);
+  }
+}
+
+// The axis of a cylinder, from its flat ends: the way along it is long.
+TEST(SurfaceThickness, IsNotMuchMoreThanTheSolidIsThickThere) {
+  const Solid cylinder = make_solid(make_cylinder(1, 10, 64));
+  const Mesh axis{{{0, 0, 4}, {0, 0, 6}}, {{0, 1, 1}}};
+  Mesh skeleton = axis;
+  for (Vec3& point : skeleton.points) point = in_solid(cylinder, point);
+  const std::vector<Vec3> inward = inward_normals(cylinder.mesh);
+  ThicknessOptions options;
+  options.near = 0.02 / cylinder.scale();
+  for (const double about : {1., 3.}) {
+    const std::vector<double> found =
+        surface_thickness(cylinder, cylinder.mesh, skeleton, inward,
+                          std::vector<double>(inward.size(), about / cylinder.scale()), options);
+    int ends = 0;
+    for (std::size_t t = 0; t < found.size(); ++t) {
+      if (std::abs(inward[t].z) < 0.5) continue;
+      EXPECT_NEAR(found[t] * cylinder.scale(), about == 1 ? 1 : 4, 0.03) << about;
+      ++ends;
+    }
+    EXPECT_GE(ends, 60);
   }
 }
 
