@@ -174,9 +174,7 @@ void run_submit(Context& context, const SubmitOptions& options) {
   Submission asked = options.asked;
   asked.repair = repair.kind != RepairChoice::Kind::kNone;
   append(found.said, check_mesh(input, found.solid, options.spacing, asked, console));
-  say(console,
-      direction_notices(found.solid, found.source ? found.source->steps : std::vector<core::RepairStep>(),
-                        asked.directions));
+  say(console, direction_notices(found.solid, asked));
   std::optional<OutputFolder> output;
   if (!options.output_dir.empty()) output.emplace(options.output_dir, job_name(input.path));
   const Submitted submitted =

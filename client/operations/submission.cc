@@ -128,16 +128,12 @@ void check_submission(const core::Solid& solid, const InputFile& input, const Su
   }
 }
 
-Notices direction_notices(const core::Solid& solid, const std::vector<core::RepairStep>& steps,
-                          const std::string& asked) {
-  constexpr std::size_t kMany = 20000;
+Notices direction_notices(const core::Solid& solid, const Submission& asked) {
+  constexpr std::size_t kMany = 30000;
   const std::size_t count = solid.mesh.triangles.size();
-  if (asked != "triangles" || count < kMany) return {};
-  if (std::none_of(steps.begin(), steps.end(),
-                   [](const core::RepairStep& step) { return step.code == "wrapped"; }))
-    return {};
+  if (asked.directions != "triangles" || asked.minimum == "infimum" || count < kMany) return {};
   Notice many = note("MANY_DIRECTIONS",
-                     "the wrap's " + std::to_string(count) +
+                     std::to_string(count) +
                          " triangles are a direction each, which takes long; 5000 evenly from all sides give "
                          "nearly the same");
   v1::Setting& directions = many.to_try.emplace_back();

@@ -42,11 +42,9 @@ void check_spacing(const core::Solid& solid, double spacing, const std::string& 
 /// @throws ClientError kBadInput or kLimit.
 void check_submission(const core::Solid& solid, const InputFile& input, const Submission& submission);
 
-/// What would take much less time, where a wrap has so many triangles that their normals are far more directions than
-/// are needed.
-/// @param steps of the mesh's repair. @param directions that are asked for.
-Notices direction_notices(const core::Solid& solid, const std::vector<core::RepairStep>& steps,
-                          const std::string& directions);
+/// What would take much less time, where a mesh has so many triangles, as scans and wraps have, that their normals are far more
+/// directions than are needed.
+Notices direction_notices(const core::Solid& solid, const Submission& asked);
 
 struct Submitted {
   v1::Job job;

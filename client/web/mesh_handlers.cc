@@ -190,8 +190,7 @@ http::Response taken_mesh(WebCall& call, UntilGone& context) {
     answer["error"] = inspection.error->what();
     return api_answer(answer);
   }
-  answer["advice"] =
-      notices_json(direction_notices(*inspection.solid, source.steps, Submission().directions));
+  answer["advice"] = notices_json(direction_notices(*inspection.solid, Submission()));
   const std::uint64_t bytes = call.upload->bytes() + (source.file ? source.file->bytes() : 0);
   UploadedMesh mesh{std::move(call.upload), name, *std::move(inspection.solid), std::move(source.file),
                     std::move(source.steps)};

@@ -56,29 +56,12 @@ class Pruning {
 
   // The shortest first. What goes only leaves others farther outside.
   SheetLines run(ExecutionContext* context) {
-    using Spur = std::pair<double, std::uint32_t>;
-    std::priority_queue<Spur, std::vector<Spur>, std::greater<>> spurs;
-    const auto look_at = [&](std::uint32_t end, double known) {
-      throw_if_stopped(context);
-      const Line line = line_from(end);
-      const bool leads_through_middle =
-          std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return is_middle_[v] != 0; });
-      if (beside_[line.back()].size() < 3 || leads_through_middle) return;
-      // Its end mostly is the farthest; an arm may come back to the hip.
-      if (std::any_of(line.begin(), line.end() - 1, [&](std::uint32_t v) { return leads_out(line, v); }))
-        return;
-      const double beyond = beyond_rest(line, end).radii;
-      if (beyond > known)
-        spurs.push({beyond, end});
-      else
-        erase(line);
-    };
     for (std::uint32_t v = 0; v < beside_.size(); ++v)
-      if (beside_[v].size() == 1) look_at(v, -HUGE_VAL);
-    while (!spurs.empty()) {
-      const auto [beyond, end] = spurs.top();
-      spurs.pop();
-      look_at(end, beyond);
+      if (beside_[v].size() == 1) look_at(v, -HUGE_VAL, context);
+    while (!spurs_.empty()) {
+      const auto [beyond, end] = spurs_.top();
+      spurs_.pop();
+      look_at(end, beyond, context);
     }
     std::vector<Segment> left;
     for (const auto& [a, b] : lines_.segments)
@@ -104,6 +87,47 @@ class Pruning {
     }
     for (std::uint32_t v = 0; v < beside_.size(); ++v)
       if ((piece_[v] = pieces.find(v)) == v) is_middle_[middle[v]] = 1;
+  }
+
+  // @param known how far beyond the rest it was when others were there, radii.
+  void look_at(std::uint32_t end, double known, ExecutionContext* context) {
+    throw_if_stopped(context);
+    if (beside_[end].size() != 1) return;  // it has gone with another
+    const Line line = line_from(end);
+    if (!is_spur(line)) return;
+    const double beyond = beyond_rest(line, end).radii;
+    if (beyond > known) return spurs_.push({beyond, end});
+    const Line twin = twin_of(line, beyond);
+    if (!twin.empty() && !is_spur(twin)) return;
+    erase(line);
+    if (twin.empty()) return;
+    erase(twin);
+    if (beside_[line.back()].size() == 1) look_at(line.back(), -HUGE_VAL, context);
+  }
+
+  bool is_spur(const Line& line) {
+    if (beside_[line.back()].size() < 3) return false;
+    // Its end mostly is the farthest; an arm may come back to the hip.
+    return std::none_of(line.begin(), line.end() - 1,
+                        [&](std::uint32_t v) { return is_middle_[v] != 0 || leads_out(line, v); });
+  }
+
+  // Another at the end of the same line, which leads about as far beyond: one of two alone would draw that line, which ends
+  // between them, to its side.  Empty where there is none.
+  Line twin_of(const Line& line, double beyond) {
+    const std::uint32_t joint = line.back();
+    if (beside_[joint].size() != 3) return {};
+    for (const std::uint32_t next : beside_[joint]) {
+      if (next == line[line.size() - 2]) continue;
+      Line other{joint, next};
+      for (std::uint32_t v = next; beside_[v].size() == 2; other.push_back(v))
+        v = beside_[v][beside_[v][0] == other[other.size() - 2] ? 1 : 0];
+      if (beside_[other.back()].size() != 1) continue;
+      std::reverse(other.begin(), other.end());
+      const double radii = beyond_rest(other, other.front()).radii;
+      if (std::min(beyond, radii) >= kTwin * std::max(beyond, radii)) return other;
+    }
+    return {};
   }
 
   void erase(std::uint32_t a, std::uint32_t b) {
@@ -166,12 +190,14 @@ class Pruning {
   const SheetLines& lines_;
   const SheetMesh& sheet_;
   std::span<const double> ball_;
-  double least_;                      // thickness
-  std::vector<Line> beside_;          // per vertex, by the segments that are left
-  std::vector<std::uint32_t> piece_;  // per vertex
-  std::vector<char> is_left_;         // per vertex
-  std::vector<char> is_middle_;       // per vertex
-  HalvedTree<Balls> balls_;           // of all vertices
+  double least_;                                  // thickness
+  std::vector<Line> beside_;                      // per vertex, by the segments that are left
+  std::vector<std::uint32_t> piece_;              // per vertex
+  std::vector<char> is_left_;                     // per vertex
+  std::vector<char> is_middle_;                   // per vertex
+  HalvedTree<Balls> balls_;                       // of all vertices
+  using Spur = std::pair<double, std::uint32_t>;  // how far beyond the rest its end is, radii
+  std::priority_queue<Spur, std::vector<Spur>, std::greater<>> spurs_;
 };
 
 }  // namespace

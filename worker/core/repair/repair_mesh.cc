@@ -254,6 +254,7 @@ void tell_wrap(const AlphaWrapOptions& wrap, SolidWrap wrapped, RepairedMesh& re
                             MeshNote::Severity::kWarning});
   }
   result.wrapped_volume = wrapped.volume;
+  result.wrapped_overlaps = wrapped.overlaps;
 }
 
 // The surface through a cloud, with what was done for it. @return spacing of its points.
@@ -334,7 +335,7 @@ void face_outward(RepairedMesh& result, const RepairOptions& options) {
 
 void tell_wrapped_volume(RepairedMesh& result) {
   const double before = result.wrapped_volume, more = result.volume / before - 1;
-  if (!(before > 0) || std::fabs(more) < kToldWrap) return;
+  if (!(before > 0) || std::fabs(more) < kToldWrap || (more < 0 && result.wrapped_overlaps)) return;
   result.steps.push_back({"wrap-volume", 1,
                           "the wrap holds " + short_text(result.volume) + ", what it wraps " +
                               short_text(before) + ": " + base::rounded(100 * std::fabs(more), 3) + " % " +

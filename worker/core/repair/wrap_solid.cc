@@ -88,9 +88,9 @@ class CavityWrapper {
   }
 
   void add_to(SolidWrap& wrap) {
-    // Of surfaces that cross, be it themselves, overlaps count twice, and what touches may lie on another: not told
-    // apart.
-    if (!solid_.self_intersecting) wrap.volume = solid_.volume;
+    // What touches may lie on another, and count twice, too.
+    wrap.volume = solid_.volume;
+    wrap.overlaps = solid_.self_intersecting;
     std::vector<std::uint32_t> outermost_first(count_);
     std::iota(outermost_first.begin(), outermost_first.end(), 0U);
     std::stable_sort(outermost_first.begin(), outermost_first.end(),

@@ -64,12 +64,12 @@ struct WithoutNoise {
 struct Walls {
   Walls(const Solid& solid, const Lattice& lattice, unsigned threads)
       : mesh(surface_in_lattice(solid, lattice)), distance(mesh, threads) {
-    if (solid.self_intersecting) clean.emplace(mesh);
+    if (solid.is_folded()) clean.emplace(mesh);
   }
 
   const Mesh mesh;
   const DistanceToMesh distance;
-  std::optional<WithoutNoise> clean;  // of one that crosses itself
+  std::optional<WithoutNoise> clean;  // of one that is folded
 };
 
 // A vertex has the mean of its cell's crossings, normals turned to agree with the first.

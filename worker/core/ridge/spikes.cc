@@ -12,9 +12,10 @@
 namespace affskel::core {
 namespace {
 
-Mesh crossing_triangles(const Solid& solid, const Mesh& walls) {
+Mesh folded_triangles(const Solid& solid, const Mesh& walls) {
   std::vector<char> crosses(walls.triangles.size(), 0);
-  for (const auto& [a, b] : solid.crossings) crosses[a] = crosses[b] = 1;
+  for (const auto& crossing : solid.crossings)
+    if (solid.is_fold(crossing)) crosses[crossing.first] = crosses[crossing.second] = 1;
   Mesh mesh{.points = walls.points, .triangles = {}};
   for (std::size_t t = 0; t < crosses.size(); ++t)
     if (crosses[t]) mesh.triangles.push_back(walls.triangles[t]);
@@ -34,8 +35,8 @@ double longest_spike(const SpikyLimbs& limbs) {
 
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
                                   const SpikyLimbs& limbs) {
-  if (solid.crossings.empty()) return {};
-  const Mesh mesh = crossing_triangles(solid, walls);
+  const Mesh mesh = folded_triangles(solid, walls);
+  if (mesh.triangles.empty()) return {};
   const DistanceToMesh crossing(mesh);
   const bool everywhere =
       static_cast<double>(mesh.triangles.size()) >= kNoisy * static_cast<double>(walls.triangles.size());

@@ -26,7 +26,7 @@ struct SpikyLimbs {
 /// noise, or all where it does so at kNoisy of its triangles, that are no longer than kSpike times the noise, nor than the
 /// solid is thick somewhere.
 /// @param walls the solid's surface in lattice coordinates.
-/// @return per limb; empty where the surface does not cross itself.
+/// @return per limb; empty where no surface crosses itself: of a model of parts that overlap every limb is one.
 std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const Lattice& lattice,
                                   const SpikyLimbs& limbs);
 

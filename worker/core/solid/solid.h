@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -69,6 +70,16 @@ struct Solid {
   double scale() const { return std::ldexp(1.0, exponent); }
   /// A volume in scaled coordinates.
   double scaled(double mesh_volume) const { return std::ldexp(mesh_volume, -3 * exponent); }
+
+  /// Whether two triangles that cross are of one surface, which is folded then, as noise does it; parts of a model that
+  /// overlap are meant to.
+  bool is_fold(const std::pair<std::uint32_t, std::uint32_t>& crossing) const {
+    return triangle_shell[crossing.first] == triangle_shell[crossing.second];
+  }
+  bool is_folded() const {
+    return std::any_of(crossings.begin(), crossings.end(),
+                       [&](const auto& crossing) { return is_fold(crossing); });
+  }
 
   /// The connected solid that a triangle bounds.
   std::uint32_t solid_of(std::uint32_t triangle) const { return shells[triangle_shell[triangle]].solid; }

@@ -129,23 +129,23 @@ TEST_F(OperationsTest, ARepairedMeshIsSubmittedWithWhatItWas) {
   EXPECT_THROW(submit(session_, environment_, input, &source, {}), ClientError);
 }
 
-TEST_F(OperationsTest, FewerDirectionsAreAdvisedForAWrap) {
+TEST_F(OperationsTest, FewerDirectionsAreAdvisedForScansAndWraps) {
   core::Solid solid;
   solid.mesh.triangles.resize(132'000);
-  const std::vector<core::RepairStep> wrapped = {{"wrapped", 132'000, "wrapped"}},
-                                      filled = {{"filled-holes", 1, "filled"}};
-  const Notices notices = direction_notices(solid, wrapped, "triangles");
+  const Notices notices = direction_notices(solid, {});
   ASSERT_EQ(notices.size(), 1U);
   EXPECT_EQ(notices[0].kind, Notice::Kind::kNote);
   EXPECT_NE(notices[0].message.find("132000 triangles"), std::string::npos) << notices[0].message;
   ASSERT_EQ(notices[0].to_try.size(), 1U);
   EXPECT_EQ(notices[0].to_try[0].name(), "directions");
   EXPECT_TRUE(are_plain(notices));
-  EXPECT_TRUE(direction_notices(solid, filled, "triangles").empty());
-  EXPECT_TRUE(direction_notices(solid, {}, "triangles").empty());
-  EXPECT_TRUE(direction_notices(solid, wrapped, "sphere:5000").empty());
+  Submission fewer, infimum;
+  fewer.directions = "sphere:5000";
+  infimum.minimum = "infimum";
+  EXPECT_TRUE(direction_notices(solid, fewer).empty());
+  EXPECT_TRUE(direction_notices(solid, infimum).empty()) << "they are a beginning there";
   solid.mesh.triangles.resize(5000);
-  EXPECT_TRUE(direction_notices(solid, wrapped, "triangles").empty());
+  EXPECT_TRUE(direction_notices(solid, {}).empty());
 }
 
 TEST_F(OperationsTest, TextsThatTheProtocolHasNoRoomForAreRefused) {

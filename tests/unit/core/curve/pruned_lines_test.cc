@@ -46,6 +46,21 @@ TEST(PrunedLines, DropsASpurAndKeepsALimb) {
   }
 }
 
+// The condyles of a bone: how far beyond its end's ball they lead, radii; and which of their ends are left, with the bone's.
+TEST(PrunedLines, DropsBothOfTwoAlikeAtTheEndOfALineOrNone) {
+  struct Case {
+    double up, down;
+    std::size_t left;
+  };
+  for (const auto& [up, down, left] : {Case{0.5, 0.4, 0}, {0.65, 0.5, 2}, {0.5, 0.2, 1}, {0.65, 0.2, 1}}) {
+    Pruned lines;
+    const std::size_t bone = lines.segments.size();
+    lines.go(lines.last, (1 + up) * Vec3{0.6, 0.8, 0}, 1, 0.8);
+    lines.go(lines.last, (1 + down) * Vec3{0.6, -0.8, 0}, 1, 0.8);
+    EXPECT_EQ(lines.run().segments.size(), bone + left) << up << " " << down;
+  }
+}
+
 // Its end lies in the trunk's ball.
 TEST(PrunedLines, KeepsALimbThatComesBack) {
   for (const int steps : {2, 6}) {

@@ -63,6 +63,8 @@ TEST(WrapSolid, MeetsItselfNowhere) {
   ASSERT_TRUE(make_solid(body).self_intersecting);
   const RepairedMesh repaired = repair_mesh(body, {.kind = RepairKind::kWrap, .alpha = 20});
   EXPECT_FALSE(make_solid(repaired.mesh).self_intersecting);
+  EXPECT_NE(step(repaired, "wrap-volume"), nullptr)
+      << "more than what it wraps has even where that counts twice";
 }
 
 TEST(WrapSolid, ClosesHolesThatAreWiderThanAlpha) {

@@ -67,6 +67,18 @@ TEST(Spikes, MayBeWhereTheSurfaceCrossesItselfAboutATip) {
   EXPECT_EQ(possible(), (std::vector<char>{0, 0}));
 }
 
+// Parts put together, as a stool's legs and seat.
+TEST(Spikes, AreNoLimbsOfPartsThatOverlap) {
+  Beam beam(2);
+  const Mesh walls = beam.walls();
+  cross_near_first_tip(beam, walls, 1);
+  Solid& solid = beam.solid.solid;
+  for (auto& [a, b] : solid.crossings) b = a == 0 ? 1 : 0;
+  EXPECT_FALSE(possible_spikes(solid, walls, beam.solid.lattice, beam.limbs()).empty());
+  for (std::uint32_t t = 0; t < solid.triangle_shell.size(); ++t) solid.triangle_shell[t] = t;
+  EXPECT_TRUE(possible_spikes(solid, walls, beam.solid.lattice, beam.limbs()).empty());
+}
+
 TEST(Spikes, MayBeAnywhereWhereAFifthOfTheSurfaceCrossesItself) {
   Beam beam(2);
   const Mesh walls = beam.walls();
