@@ -41,14 +41,14 @@ TEST(WrapSolid, TellsCavitiesThatItCloses) {
   ASSERT_NE(step(coarse, "wrap-volume"), nullptr);
   EXPECT_NE(step(coarse, "wrap-volume")->message.find("what it wraps 56"), std::string::npos)
       << step(coarse, "wrap-volume")->message;
-  // A beam through the cavity: how much they hold is not known, for overlaps count twice.
+  // A beam through the cavity: they hold less than the sum, for overlaps count twice, and the wrap more than that.
   const Mesh pierced = joined(hollow, moved(make_box(8, 0.5, 0.5), {-2, 1.75, 1.75}));
   const RepairedMesh beside = repair_mesh(pierced, {.kind = RepairKind::kWrap, .alpha = 0.2});
   EXPECT_NE(step(beside, "closed-cavities"), nullptr);
-  EXPECT_EQ(step(beside, "wrap-volume"), nullptr);
+  EXPECT_NE(step(beside, "wrap-volume"), nullptr);
 }
 
-TEST(WrapSolid, IsNotComparedWithWhatCountsTwice) {
+TEST(WrapSolid, MayHoldLessThanWhatCountsTwice) {
   const Mesh box = make_box(2, 2, 2);
   for (const Mesh& mesh : {make_coil(), joined(box, moved(box, {1, 1, 1})), joined(box, box)}) {
     const RepairedMesh repaired = repair_mesh(mesh, {.kind = RepairKind::kWrap, .alpha = 0.2});
