@@ -85,7 +85,8 @@ class FindHubs {
       all.add(moments_[v]);
     }
     stop_.did(2 * ends_.size());
-    if (!(all.count > 0) || !may_grow(own)) return;
+    if (!may_grow(own)) return;
+    if (!(all.count > 0) && !take_near_joints(own)) return;
     bool joins = true;
     if (!grow_hub(own, kFilled, joins) && !joins) grow_hub(own, kFilledStrictly, joins);
   }
@@ -128,6 +129,21 @@ class FindHubs {
       is_widened_[result_.hubs.size() - 1] = 1;
     else
       result_.of = std::move(before);
+  }
+
+  // Where no sample point is nearest to a joint, what lies within half of its ball stands for it: at some spacings the arms of a
+  // starfish have all that lies about theirs.
+  // @return whether there is any.
+  bool take_near_joints(std::vector<std::uint32_t>& own) {
+    const std::vector<std::uint32_t> empty = own;
+    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+      if (result_.of[v] != kNone || !(moments_[v].count > 0)) continue;
+      if (std::ranges::any_of(empty, [&](std::uint32_t joint) {
+            return is_joint(joint) && norm(in_.places[v] - in_.places[joint]) <= 0.5 * in_.radius[joint];
+          }))
+        own.push_back(v);
+    }
+    return own.size() > empty.size();
   }
 
   // Adds to what is a body's own what lies about it.

@@ -34,7 +34,8 @@ struct LimbHubsInput {
   ExecutionContext* context = nullptr;     ///< asked whether to stop
 };
 
-/// From what no limb has (see parted_lines()), as far as it hangs together in the solid, with a joint, a hub grows: as large as
+/// From what no limb has (see parted_lines()), as far as it hangs together in the solid, with a joint, or, where that is nothing,
+/// from what lies about the joint, a hub grows: as large as
 /// an ellipsoid with its moments, it takes what is nearest to lines in that, too, and so on, until it holds no more, but not
 /// along a limb that is longer than it is thick, to its free end; those that both hold the place between their middles are
 /// one, if they fill one ellipsoid about as well.  Then one grows from what lies in twice the ellipsoid of that, or of what no

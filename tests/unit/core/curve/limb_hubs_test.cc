@@ -124,10 +124,15 @@ TEST(LimbHubs, HaveLoopsThatAreShorterThanThick) {
   ASSERT_EQ(cube.found().hubs.size(), 1U);
 }
 
-TEST(LimbHubs, AreNotWhereLimbsGrowSlowly) {
-  Cube cube;
-  cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 0.3);
-  EXPECT_TRUE(cube.found().hubs.empty());
+// Where limbs grow slowly towards it; a sample point lies half a spacing from the middle, along each axis.
+TEST(LimbHubs, GrowWhetherOrNotASamplePointIsNearestToTheirJoint) {
+  for (const double aside : {0., 0.1}) {
+    Cube cube;
+    const std::uint32_t joint = cube.add(cube.middle + Vec3{aside, aside, aside}, 2);
+    cube.go_out(joint, kCross, 2.2, 0.3);
+    ASSERT_EQ(cube.found().hubs.size(), 1U) << aside;
+    EXPECT_EQ(cube.found().hubs[0].joint, joint) << aside;
+  }
 }
 
 // Four limbs, and one upwards of so many vertices, so thick.
