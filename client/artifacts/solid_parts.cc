@@ -1,6 +1,7 @@
 #include "client/artifacts/solid_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -33,6 +34,9 @@ v1::SolidParts parse_solid_parts(const std::string& bytes) {
   require(surface.xyz_size() % 3 == 0 && surface.corners_size() % 3 == 0 && triangles > 0, "odd numbers");
   require(all_between(surface.corners(), 0, static_cast<std::uint32_t>(surface.xyz_size() / 3) - 1),
           "a corner out of range");
+  require(std::all_of(message.thickness().begin(), message.thickness().end(),
+                      [](double thickness) { return std::isfinite(thickness); }),
+          "a thickness that is no number");
   require(message.triangle_part_size() == triangles && message.thickness_size() == triangles,
           "a triangle without its values");
   require(all_between(message.triangle_part(), 1, parts) && all_between(message.point_part(), 1, parts),
@@ -77,9 +81,10 @@ ThicknessScale thickness_scale(const v1::SolidParts& parts) {
   if (thickest.empty()) return {};
   std::sort(thickest.begin(), thickest.end(), std::greater<>());
   std::size_t first = 0;  // of those that are not left out
-  while (first + 1 < thickest.size() && thickest[first].second <= rest) rest -= thickest[first++].second;
-  const double all = thickest.front().first, most = thickest[first].first;
-  return all > kMore * most && most > 0 ? ThicknessScale{most, true} : ThicknessScale{all, false};
+  while (rest > 0 && first + 1 < thickest.size() && thickest[first].second <= rest)
+    rest -= thickest[first++].second;
+  const double greatest = thickest.front().first, most = thickest[first].first;
+  return {greatest > kMore * most && most > 0 ? most : greatest, greatest};
 }
 
 std::vector<Rgb> colours_of(const v1::SolidParts& parts) {

@@ -112,10 +112,11 @@ PaintedBody by_part(const v1::SolidParts& solid) {
 PaintedBody by_thickness(const v1::SolidParts& solid) {
   PaintedBody body;
   body.mesh = surface_of(solid);
-  const auto [highest, is_passed] = thickness_scale(solid);
+  const auto [highest, greatest] = thickness_scale(solid);
   for (const double thickness : solid.thickness())
     body.colours.push_back(viridis(static_cast<float>(thickness / highest)));
-  body.scale = {"Thickness, mesh units", "From the surface to the skeleton", highest, false, is_passed};
+  body.scale = {"Thickness, mesh units", "From the surface to the skeleton", highest, false,
+                greatest > highest};
   return body;
 }
 

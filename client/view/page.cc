@@ -272,8 +272,8 @@ ordered_json add_model(PageArrays& arrays, const ViewModel& model, double unit) 
   facts["pointGrid"] = add_points(arrays, model, scale);
   if (model.sheet_is_skeleton) add_sheet(arrays, model, scale);
   facts["parts"] = add_parts(arrays, model.parts);
-  const auto [thickest, is_passed] = thickness_scale(model.parts);
-  facts["thickness"] = {{"highest", thickest}, {"isPassed", is_passed}};
+  const auto [highest, greatest] = thickness_scale(model.parts);
+  facts["thickness"] = {{"highest", highest}, {"greatest", greatest}};
   add_marks(arrays, model, scale);
   facts["eroded"] = add_eroded(arrays, model, box);
   facts["arrays"] = arrays.directory();

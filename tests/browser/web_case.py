@@ -59,8 +59,8 @@ class OnThePage(OnABench):
 
     def submit_endless(self, name, points=3000000):
         """A job that no worker gets to the end of, however slow the browser is; it does not outlive the test."""
-        job = self.bench.run("submit", self.bench.path("large.off"), "--points", str(points), "--directions", "sphere:1000000",
-                        "--name", name).strip()
+        job = self.bench.run("submit", self.bench.path("large.off"), "--points", str(points), "--directions",
+                             "sphere:1000000", "--name", name).strip()
         self.addCleanup(self.bench.drop, job)
         return job
 

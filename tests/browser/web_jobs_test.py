@@ -128,7 +128,8 @@ class Jobs(OnThePage):
     def test_the_list_is_searched_ordered_and_cleaned(self):
         page = self.page
         names = ["zebra one", "zebra two", "ape"]
-        ids = [self.bench.run("submit", self.bench.path("box.off"), "--points", str(500 + 300 * n), "--name", name, "--wait").strip()
+        ids = [self.bench.run("submit", self.bench.path("box.off"), "--points", str(500 + 300 * n), "--name", name,
+                              "--wait").strip()
                for n, name in enumerate(names)]
         cards = [f"#job-{job}" for job in ids]
         shown = lambda: [name for name, card in zip(names, cards) if page.all(card) and page.find(card).is_displayed()]

@@ -163,7 +163,8 @@ class Submitting(OnThePage):
 
     def test_again_asks_for_what_the_job_was_asked_for(self):
         page = self.page
-        job = self.bench.run("submit", self.bench.path("box.off"), "--spacing", "12.5", "--directions", "triangles+sphere:200", "--frame", "pca",
+        job = self.bench.run("submit", self.bench.path("box.off"), "--spacing", "12.5", "--directions",
+                             "triangles+sphere:200", "--frame", "pca",
                         "--minimum", "infimum", "--operator", "chords", "--name", "other", "--wait").strip()
         page.script(f"location.hash = '#new/{job}'")
         page.picture_is_drawn("#found img")

@@ -68,5 +68,6 @@ test('the legend tells per cent of v0 at equal distances of the cube root', () =
 });
 
 test('the legend tells thickness evenly', () => {
-  assert.deepEqual(labelled(thicknessScale(80)).labels, ['0', '20', '40', '60', '80']);
+  assert.deepEqual(labelled(thicknessScale({ highest: 80, greatest: 80 })).labels, ['0', '20', '40', '60', '80']);
+  assert.equal(labelled(thicknessScale({ highest: 80, greatest: 81 })).labels[4], '80+');
 });

@@ -123,23 +123,14 @@ class Parts {
     return skeleton;
   }
 
-  // The lattice's, in a frame that is stretched the longest; scaled units.
-  double longest_step() const {
-    const core::Lattice& lattice = field_.lattice();
-    const core::Vec3 origin = core::scaled_place(lattice, {});
-    double longest = 0;
-    for (const core::Vec3& step : {core::Vec3{1, 0, 0}, core::Vec3{0, 1, 0}, core::Vec3{0, 0, 1}})
-      longest = std::max(longest, core::norm(core::scaled_place(lattice, step) - origin));
-    return longest;
-  }
-
   void add_thickness() {
     std::vector<core::Vec3> inward;
     inward.reserve(surface_.point.size());
     for (const std::uint32_t point : surface_.point)
       inward.push_back(point == core::kNone ? core::Vec3{} : field_.normal(point));
     const core::RidgeBasis& basis = ridge_.basis();
-    const double spacing = longest_step();
+    double spacing = 0;  // scaled units, in a frame that is stretched the longest
+    for (const core::Vec3& axis : field_.lattice().grid.axes) spacing = std::max(spacing, core::norm(axis));
     std::vector<double> about;
     for (const float radius : core::local_thickness(basis.complex, basis.radius, surface_.point,
                                                     {field_.threads(), field_.context()}))

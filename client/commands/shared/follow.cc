@@ -51,7 +51,7 @@ void show_end(Context& context, const v1::Job& job, const Notices& said) {
   throw_unless_done(context, job);
   Console& console = context.console();
   for (const Notice& notice : end_notices(job)) {
-    const auto same = [&](const Notice& one) { return one.code == notice.code; };
+    const auto same = [&](const Notice& one) { return one.kind == notice.kind && one.code == notice.code; };
     if (std::none_of(said.begin(), said.end(), same)) say(console, notice);
   }
   console.note(summary_text(job));

@@ -7,6 +7,7 @@
 #include "client/files/write/curve_graph.h"
 #include "client/files/write/shape_writers.h"
 #include "client/text/printable.h"
+#include "core/mesh/polylines.h"
 
 namespace affskel::client {
 namespace {
@@ -63,21 +64,17 @@ std::string polyline_text(const ShapeFile& shape, const core::CurveBranch& branc
   return text;
 }
 
-// Per node: the branch that is a body there, or none.
+// Per node: the branch that is a body there, or a solid without limbs; else none.
 std::vector<const core::CurveBranch*> bodies_of(const core::CurveGraph& graph) {
   std::vector<const core::CurveBranch*> bodies(graph.nodes.size(), nullptr);
   for (const core::CurveBranch& branch : graph.branches)
-    if (branch.kind == core::BranchKind::kPoint) bodies[branch.from] = &branch;
+    if (branch.kind == core::BranchKind::kPoint && branch.share > 0) bodies[branch.from] = &branch;
   return bodies;
 }
 
 // How much of a branch's line runs within the bodies that it hangs on.
 double length_in_bodies(const ShapeFile& shape, const core::CurveBranch& branch) {
-  double length = 0;
-  for (std::size_t v = 1; v < branch.vertices.size(); ++v)
-    length +=
-        core::norm(shape.mesh().points[branch.vertices[v]] - shape.mesh().points[branch.vertices[v - 1]]);
-  return std::max(0.0, length - branch.length);
+  return std::max(0.0, core::length_of(shape.mesh().points, branch.vertices) - branch.length);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class Measures(Saveable):
         surface: the solid's, its triangles cut where parts meet; no attributes.  Saved, .ply or .vtp, it has the part and
             the thickness of each triangle.
         triangle_part, thickness: (m,) per triangle of it: its part, and the way along its optimal normal to the skeleton
-            of "ridge".
+            of "ridge" or, where that is far away, how thick the solid is about there.
         point_part: (R,) per sample point, in the order of `Job.field`.
         whole: of the solid: volume, surface_area, curve_length, sheet_area (of the skeleton of "ridge"), greatest_E,
             greatest_E_place, and the pieces, tunnels and voids that its skeleton finds.

@@ -23,8 +23,8 @@ export class Body {
     this.page = page;
     this.models = models.filter(({ facts }) => facts.parts.length > 0);
     this.changed = changed;
-    const scales = this.models.map(({ facts }) => facts.thickness);
-    this.thickness = { highest: Math.max(0, ...scales.map((s) => s.highest)), isPassed: scales.some((s) => s.isPassed) };
+    const most = (name) => Math.max(0, ...this.models.map(({ facts }) => facts.thickness[name]));
+    this.thickness = { highest: most('highest'), greatest: most('greatest') };
     this.select = element('body-colour');
     this.select.parentElement.hidden = this.models.length === 0;
     this.select.addEventListener('change', () => this.choose(this.select.value));

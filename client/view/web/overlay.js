@@ -95,11 +95,11 @@ export const erosionScale = ({ highestShare, scaleTitle, scaleNote }) => ({
 
 /**
  * Of the body's thickness, evenly.
- * @param {{ highest: number, isPassed: boolean }} thickness see thickness_scale() in client/artifacts/solid_parts.h
+ * @param {{ highest: number, greatest: number }} thickness see thickness_scale() in client/artifacts/solid_parts.h
  */
-export const thicknessScale = ({ highest, isPassed }) => ({
+export const thicknessScale = ({ highest, greatest }) => ({
   title: 'Thickness, mesh units',
   note: 'From the surface to the skeleton',
   valueAt: (tick) => tick * highest,
-  isPassed,
+  isPassed: greatest > highest,
 });

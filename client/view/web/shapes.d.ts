@@ -29,7 +29,7 @@ interface ModelFacts {
   meshGrid: Grid;
   pointGrid: Grid;
   parts: Part[]; // of the body's triangles, see meshParts; or none
-  thickness: { highest: number; isPassed: boolean }; // see thickness_scale() in client/artifacts/solid_parts.h
+  thickness: { highest: number; greatest: number }; // see thickness_scale() in client/artifacts/solid_parts.h
   eroded: { volume: number; triangles: number }[];
   arrays: Record<string, any>; // typed arrays
 }

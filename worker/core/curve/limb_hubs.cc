@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 #include "core/base/median.h"
 #include "core/curve/parted_lines.h"
@@ -135,15 +136,19 @@ class FindHubs {
   // starfish have all that lies about theirs.
   // @return whether there is any.
   bool take_near_joints(std::vector<std::uint32_t>& own) {
-    const std::vector<std::uint32_t> empty = own;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      if (result_.of[v] != kNone || !(moments_[v].count > 0)) continue;
-      if (std::ranges::any_of(empty, [&](std::uint32_t joint) {
-            return is_joint(joint) && norm(in_.places[v] - in_.places[joint]) <= 0.5 * in_.radius[joint];
-          }))
+    std::vector<std::uint32_t> joints;
+    std::ranges::copy_if(own, std::back_inserter(joints), [&](std::uint32_t v) { return is_joint(v); });
+    stop_.did(ends_.size() * joints.size());
+    const auto is_near = [&](std::uint32_t v) {
+      return std::ranges::any_of(joints, [&](std::uint32_t joint) {
+        return norm(in_.places[v] - in_.places[joint]) <= 0.5 * in_.radius[joint];
+      });
+    };
+    const std::size_t before = own.size();
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (result_.of[v] == kNone && !parted_.is_body[v] && moments_[v].count > 0 && is_near(v))
         own.push_back(v);
-    }
-    return own.size() > empty.size();
+    return own.size() > before;
   }
 
   // Adds to what is a body's own what lies about it.

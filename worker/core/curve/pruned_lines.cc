@@ -112,22 +112,23 @@ class Pruning {
                         [&](std::uint32_t v) { return is_middle_[v] != 0 || leads_out(line, v); });
   }
 
-  // Another at the end of the same line, which leads about as far beyond: one of two alone would draw that line, which ends
-  // between them, to its side.  Empty where there is none.
+  // Another at the end of the same line, which is about as long beyond its middle: one of two alone would draw that line, which
+  // ends between them, to its side.  Empty where there is none, or the line itself is no longer.
   Line twin_of(const Line& line, double beyond) {
     const std::uint32_t joint = line.back();
     if (beside_[joint].size() != 3) return {};
+    Line twin;
     for (const std::uint32_t next : beside_[joint]) {
       if (next == line[line.size() - 2]) continue;
-      Line other{joint, next};
-      for (std::uint32_t v = next; beside_[v].size() == 2; other.push_back(v))
-        v = beside_[v][beside_[v][0] == other[other.size() - 2] ? 1 : 0];
+      Line other = line_along(joint, next);
       if (beside_[other.back()].size() != 1) continue;
       std::reverse(other.begin(), other.end());
       const double radii = beyond_rest(other, other.front()).radii;
-      if (std::min(beyond, radii) >= kTwin * std::max(beyond, radii)) return other;
+      if (1 + std::min(beyond, radii) < kTwin * (1 + std::max(beyond, radii))) continue;
+      if (!twin.empty()) return {};
+      twin = std::move(other);
     }
-    return {};
+    return twin;
   }
 
   void erase(std::uint32_t a, std::uint32_t b) {
@@ -163,7 +164,7 @@ class Pruning {
     constexpr double kRounding = 1 + 1e-9;
     const Vec3 end = place(vertex);
     Beyond least;
-    const auto look_at = [&](std::uint32_t u) {
+    const auto compare = [&](std::uint32_t u) {
       if (!is_left_[u] || piece_[u] != piece_[line.back()]) return;
       const double way = norm(end - place(u)) - ball(u);
       least.way = std::min(least.way, way);
@@ -174,15 +175,18 @@ class Pruning {
       return way < kRounding * std::max(least.way + balls.greatest, (1 + least.radii) * balls.greatest);
     };
     leave(line, 0);
-    look_at(line.back());  // it is near
-    balls_.visit_above(-1, may_have_less, look_at);
+    compare(line.back());  // it is near
+    balls_.visit_above(-1, may_have_less, compare);
     leave(line, 1);
     return least;
   }
 
-  Line line_from(std::uint32_t end) const {
-    Line line{end};
-    for (std::uint32_t v = beside_[end].front(); line.push_back(v), beside_[v].size() == 2;)
+  Line line_from(std::uint32_t end) const { return line_along(end, beside_[end].front()); }
+
+  // To an end or a joint.
+  Line line_along(std::uint32_t from, std::uint32_t next) const {
+    Line line{from};
+    for (std::uint32_t v = next; line.push_back(v), beside_[v].size() == 2;)
       v = beside_[v][beside_[v][0] == line[line.size() - 2] ? 1 : 0];
     return line;
   }

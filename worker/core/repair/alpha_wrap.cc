@@ -37,27 +37,6 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   return normals;
 }
 
-// Moves the places inward by the offset: less, by halves, where triangles would meet that did not, as those of opposite walls
-// of a hollow that is as narrow do.  A wrap meets itself nowhere, so that this ends.
-void take_back_offset(Mesh& wrap, const AlphaWrapOptions& options) {
-  constexpr double kLeast = 1.0 / 16;  // of the offset: less is none
-  const std::vector<Vec3> normals = vertex_normals(wrap), places = wrap.points;
-  std::vector<double> moves(places.size(), options.offset);
-  for (bool again = true; again;) {
-    for (std::size_t v = 0; v < places.size(); ++v) wrap.points[v] = places[v] - moves[v] * normals[v];
-    std::vector<bool> meets(places.size());
-    for (const auto& [i, j] : self_intersections(wrap, {wrap.triangles.size(), 1, options.context}))
-      for (const std::uint32_t t : {i, j})
-        for (const std::uint32_t v : wrap.triangles[t]) meets[v] = true;
-    again = false;
-    for (std::size_t v = 0; v < places.size(); ++v) {
-      if (!meets[v] || moves[v] == 0) continue;
-      moves[v] = moves[v] > kLeast * options.offset ? 0.5 * moves[v] : 0;
-      again = true;
-    }
-  }
-}
-
 }  // namespace
 
 Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
@@ -88,8 +67,26 @@ Mesh alpha_wrap(const Mesh& mesh, const AlphaWrapOptions& options) {
   // CGAL turns what bounds a cavity as if it bounded a solid.
   if (options.from)
     for (Triangle& t : wrapped.triangles) std::swap(t[1], t[2]);
-  take_back_offset(wrapped, options);
   return wrapped;
+}
+
+void take_back_offset(Mesh& wraps, const AlphaWrapOptions& options) {
+  constexpr double kLeast = 1.0 / 16;  // of the offset: less is none
+  const std::vector<Vec3> normals = vertex_normals(wraps), places = wraps.points;
+  std::vector<double> moves(places.size(), options.offset);
+  for (bool again = true; again;) {  // every time one at least moves less, five times each at most
+    for (std::size_t v = 0; v < places.size(); ++v) wraps.points[v] = places[v] - moves[v] * normals[v];
+    std::vector<bool> meets(places.size());
+    for (const auto& [i, j] : self_intersections(wraps, {wraps.triangles.size(), 1, options.context}))
+      for (const std::uint32_t t : {i, j})
+        for (const std::uint32_t v : wraps.triangles[t]) meets[v] = true;
+    again = false;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      if (!meets[v] || moves[v] == 0) continue;
+      moves[v] = moves[v] > kLeast * options.offset ? 0.5 * moves[v] : 0;
+      again = true;
+    }
+  }
 }
 
 }  // namespace affskel::core

@@ -302,8 +302,10 @@ RepairedMesh wrapped(const Mesh& mesh, const RepairOptions& options) {
   if (options.alpha > 0) wrap.alpha = options.alpha;
   wrap.offset = options.offset > 0 ? options.offset : kWrapOffset * wrap.alpha;
   tell_wrap(wrap, wrap_solid(result.mesh, wrap), result);
-  if (is_film && options.alpha == 0 &&
-      std::fabs(enclosed_volume(result.mesh)) < kNoVolume * std::pow(surface_area(result.mesh), 1.5)) {
+  // A film's walls may have stayed an offset off each.
+  const double surface = surface_area(result.mesh);
+  const double film = std::max(kNoVolume * std::pow(surface, 1.5), wrap.offset * surface);
+  if (is_film && options.alpha == 0 && std::fabs(enclosed_volume(result.mesh)) < film) {
     refuse(
         "the mesh consists of open sheets that bound no volume, and a wrap would be a film about them; give them a "
         "thickness, by Blender's Solidify, say, or wrap them by an alpha of your own");
@@ -338,8 +340,8 @@ void tell_wrapped_volume(RepairedMesh& result) {
   if (!(before > 0) || std::fabs(more) < kToldWrap || (more < 0 && result.wrapped_overlaps)) return;
   result.steps.push_back({"wrap-volume", 1,
                           "the wrap holds " + short_text(result.volume) + ", what it wraps " +
-                              short_text(before) + ": " + base::rounded(100 * std::fabs(more), 3) + " % " +
-                              (more > 0 ? "more" : "less"),
+                              short_text(before) + (result.wrapped_overlaps ? ", overlaps twice: " : ": ") +
+                              base::rounded(100 * std::fabs(more), 3) + " % " + (more > 0 ? "more" : "less"),
                           MeshNote::Severity::kWarning});
 }
 

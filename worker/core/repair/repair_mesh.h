@@ -50,7 +50,7 @@ struct RepairedMesh {
   double longest_left = 0;    ///< length round the longest hole that is left, mesh units; 0: no length helps
   double volume = 0;          ///< mesh units cubed; 0 where something is left
   double wrapped_volume = 0;  ///< of the solid that was wrapped, mesh units cubed; 0: none, or unknown
-  bool wrapped_overlaps = false;  ///< of that what overlaps counts twice: it may be less
+  bool wrapped_overlaps = false;  ///< of that what overlaps counts twice: mostly it is less
   double bulge = 0;  ///< volume between what fills holes and soap films in them, mesh units cubed
   std::string left;  ///< what it still lacks, with what would help; empty: nothing
 };

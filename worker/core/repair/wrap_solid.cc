@@ -143,9 +143,10 @@ class CavityWrapper {
 SolidWrap wrap_solid(const Mesh& mesh, const AlphaWrapOptions& options) {
   SolidWrap wrap;
   wrap.mesh = alpha_wrap(mesh, options);
-  if (mesh.triangles.empty()) return wrap;
-  if (const std::optional<Solid> solid = solid_if_any(mesh, options.context))
-    CavityWrapper(*solid, options).add_to(wrap);
+  const std::optional<Solid> solid =
+      mesh.triangles.empty() ? std::nullopt : solid_if_any(mesh, options.context);
+  if (solid) CavityWrapper(*solid, options).add_to(wrap);
+  take_back_offset(wrap.mesh, options);
   return wrap;
 }
 

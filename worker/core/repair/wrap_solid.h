@@ -10,7 +10,7 @@ namespace affskel::core {
 struct SolidWrap {
   Mesh mesh;
   double volume = 0;         ///< of the solid that was wrapped, mesh units cubed; 0: unknown
-  bool overlaps = false;     ///< of that what overlaps counts twice: it may be less
+  bool overlaps = false;     ///< of that what overlaps counts twice: mostly it is less
   std::uint64_t kept = 0;    ///< cavities that the wrap has
   std::uint64_t closed = 0;  ///< cavities that it has not
 };

@@ -10,7 +10,8 @@
 namespace affskel::core {
 
 struct ThicknessOptions {
-  double near = 0;  ///< what comes so near to the skeleton has reached it, scaled units, > 0: half a spacing
+  double near =
+      0;  ///< what comes so near to the skeleton has reached it, scaled units, > 0: half a spacing, the longest
   unsigned threads = 1;                 ///< >= 1; the result does not depend on it
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
@@ -19,8 +20,8 @@ struct ThicknessOptions {
 /// to where that way comes nearest to the skeleton.  In hollows the optimal plane is that of another side, and the normal may
 /// lead out of the solid: then the other way.  Where it passes the skeleton at more than half of the centroid's distance, and
 /// leaves the solid, there is no skeleton under the triangle, as in a bent wall, which has no ridge: half of that way, unless
-/// it is steep to the surface.  Else the distance to the skeleton.  None is more than kMostThick times as thick as the solid is
-/// about there, as at the rim of a wall, from which the way leads along it: what is counts as that.
+/// it is steep to the surface.  Else the distance to the skeleton.  Where it is more than kMostThick times as thick as the solid
+/// is about there, as at the rim of a wall, from which the way leads along it, it counts as that.
 /// @param surface of the solid, divided as may be; scaled coordinates.
 /// @param skeleton scaled coordinates; its curves as triangles of two different corners, one vertex as one of one.
 /// @param inward per triangle of the surface: the optimal normal, unit, or 0 where there is none.

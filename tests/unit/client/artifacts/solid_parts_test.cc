@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sample_data.h"
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace affskel::client {
 namespace {
@@ -22,14 +24,14 @@ v1::SolidParts triangles(const std::vector<double>& first) {
 TEST(ThicknessScale, LeavesOutAHundredthThatIsMuchThicker) {
   const ThicknessScale two = thickness_scale(triangles({9, 22, 1}));
   EXPECT_EQ(two.highest, 1);
-  EXPECT_TRUE(two.is_passed);
+  EXPECT_EQ(two.greatest, 22);
   EXPECT_EQ(thickness_scale(triangles({9, 22, 8})).highest, 8) << "the third is within the rest";
 }
 
 TEST(ThicknessScale, GoesUpToTheGreatestThatIsNotMuchMore) {
   const ThicknessScale scale = thickness_scale(triangles({1.3}));
   EXPECT_EQ(scale.highest, 1.3);
-  EXPECT_FALSE(scale.is_passed);
+  EXPECT_EQ(scale.greatest, 1.3);
   EXPECT_EQ(thickness_scale({}).highest, 0);
 }
 

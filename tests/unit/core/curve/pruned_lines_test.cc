@@ -52,7 +52,8 @@ TEST(PrunedLines, DropsBothOfTwoAlikeAtTheEndOfALineOrNone) {
     double up, down;
     std::size_t left;
   };
-  for (const auto& [up, down, left] : {Case{0.5, 0.4, 0}, {0.65, 0.5, 2}, {0.5, 0.2, 1}, {0.65, 0.2, 1}}) {
+  for (const auto& [up, down, left] :
+       {Case{0.5, 0.4, 0}, {0.65, 0.5, 2}, {0.5, 0.2, 1}, {0.65, 0.2, 1}, {-0.1, -0.15, 0}}) {
     Pruned lines;
     const std::size_t bone = lines.segments.size();
     lines.go(lines.last, (1 + up) * Vec3{0.6, 0.8, 0}, 1, 0.8);

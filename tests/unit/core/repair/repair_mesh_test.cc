@@ -44,6 +44,8 @@ TEST(RepairMesh, WrapsABoxOfLooseTriangles) {
   }
   for (const Mesh& mesh : {loose, half})
     EXPECT_NEAR(repair_mesh(mesh, {.kind = RepairKind::kWrap, .alpha = 0.2}).volume, 8, 0.04);
+  const Mesh strip{{{0, 0, 0}, {100, 0, 0}, {100, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  EXPECT_THROW(repair_mesh(joined(strip, moved(strip, {0, 0, 5})), {.kind = RepairKind::kWrap}), CoreError);
   // Two sheets with nothing between them.
   const Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   EXPECT_THROW(repair_mesh(joined(sheet, moved(sheet, {0, 0, 1})), {.kind = RepairKind::kWrap}), CoreError);

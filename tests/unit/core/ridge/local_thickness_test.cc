@@ -38,7 +38,7 @@ struct Sampled {
   std::vector<std::uint32_t> points;
 };
 
-// Half of a plate's, up to its edges; at its corners, which are farther from the middle, at least two thirds.
+// Half of a plate's, up to its edges; at its corners, which are farther from the middle, not much less.
 TEST(LocalThickness, OfAPlateIsHalfOfItUpToItsEdges) {
   const Sampled plate(make_box(40.2, 40.2, 10.2), 1);
   const std::vector<float> found = plate.thickness();

@@ -87,6 +87,10 @@ TEST(CurveGraph, OfABodyWithLimbsHasTheirNumbersAsParts) {
   EXPECT_NEAR(sum, 1, 1e-12) << "with the place that has no line";
   EXPECT_EQ(file["branches"][0]["length_in_bodies"], 1);
   EXPECT_EQ(file["branches"][0]["length"], 1);
+  std::string xml;
+  write_curve(FileFormat::kGraphMl, shape, {}, [&](std::string_view bytes) { xml += bytes; });
+  EXPECT_NE(xml.find("<data key=\"node_volume_share\">0.5</data>"), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<data key=\"edge_length_in_bodies\">1</data>"), std::string::npos) << xml;
 }
 
 TEST(CurveGraph, IsGraphMl) {
