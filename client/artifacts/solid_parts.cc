@@ -66,16 +66,15 @@ core::Mesh surface_of(const v1::SolidParts& parts) {
   return mesh;
 }
 
-ThicknessScale thickness_scale(const v1::SolidParts& parts) {
+ThicknessScale thickness_scale(const core::Mesh& surface, std::span<const double> thickness) {
   constexpr double kRest = 0.01, kMore = 4.0 / 3;
-  const core::Mesh surface = surface_of(parts);
   std::vector<std::pair<double, double>> thickest;  // with the area
   double rest = 0;
-  for (int t = 0; t < parts.thickness_size(); ++t) {
-    const auto& [a, b, c] = surface.triangles[static_cast<std::size_t>(t)];
+  for (std::size_t t = 0; t < thickness.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
     const core::Vec3& p = surface.points[a];
     const double area = core::norm(core::cross(surface.points[b] - p, surface.points[c] - p));
-    thickest.emplace_back(parts.thickness(t), area);
+    thickest.emplace_back(thickness[t], area);
     rest += kRest * area;
   }
   if (thickest.empty()) return {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct ThicknessScale {
 
 /// Up to the greatest, unless a hundredth of the surface has a third more than all the rest: where there is no skeleton below
 /// a triangle, its thickness tells how far away one is, and few such would leave one colour to all others.
-ThicknessScale thickness_scale(const v1::SolidParts& parts);
+/// @param thickness per triangle of the surface.
+ThicknessScale thickness_scale(const core::Mesh& surface, std::span<const double> thickness);
 
 /// Per part, from the first: see part_colours().
 std::vector<Rgb> colours_of(const v1::SolidParts& parts);

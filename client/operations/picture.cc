@@ -112,7 +112,8 @@ PaintedBody by_part(const v1::SolidParts& solid) {
 PaintedBody by_thickness(const v1::SolidParts& solid) {
   PaintedBody body;
   body.mesh = surface_of(solid);
-  const auto [highest, greatest] = thickness_scale(solid);
+  const auto [highest, greatest] = thickness_scale(
+      body.mesh, {solid.thickness().data(), static_cast<std::size_t>(solid.thickness_size())});
   for (const double thickness : solid.thickness())
     body.colours.push_back(viridis(static_cast<float>(thickness / highest)));
   body.scale = {"Thickness, mesh units", "From the surface to the skeleton", highest, false,

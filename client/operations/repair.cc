@@ -63,9 +63,14 @@ Notices repair_warnings(const std::vector<core::RepairStep>& steps, const std::s
 
 Notices solid_warnings(const core::Mesh& mesh, const std::string& file) {
   Notices warnings;
-  for (const core::MeshNote& note : core::make_solid(mesh).notes)
-    if (note.severity == core::MeshNote::Severity::kWarning)
-      warnings.push_back(warning(note.code, note.message, file));
+  for (const core::MeshNote& note : core::make_solid(mesh).notes) {
+    if (note.severity != core::MeshNote::Severity::kWarning) continue;
+    warnings.push_back(warning(note.code, note.message, file));
+    if (note.code != "self-intersecting") continue;
+    v1::Setting& wrap = warnings.back().to_try.emplace_back();
+    wrap.set_name("repair");
+    wrap.set_value("wrap");
+  }
   return warnings;
 }
 

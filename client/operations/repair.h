@@ -42,7 +42,7 @@ Repair repair(const core::Mesh& mesh, const std::string& file, const RepairChoic
 /// What of a repair is likely not as its user wants it.
 Notices repair_warnings(const std::vector<core::RepairStep>& steps, const std::string& file);
 
-/// What is wrong with a mesh that bounds a solid, and no repair mends, such as surfaces that cross each other.
+/// What is wrong with a mesh that bounds a solid, and no repair but a wrap mends, such as surfaces that cross each other.
 Notices solid_warnings(const core::Mesh& mesh, const std::string& file);
 
 /// What a mesh was before its repair, and what was done to it.

@@ -272,7 +272,8 @@ ordered_json add_model(PageArrays& arrays, const ViewModel& model, double unit) 
   facts["pointGrid"] = add_points(arrays, model, scale);
   if (model.sheet_is_skeleton) add_sheet(arrays, model, scale);
   facts["parts"] = add_parts(arrays, model.parts);
-  const auto [highest, greatest] = thickness_scale(model.parts);
+  const auto [highest, greatest] = thickness_scale(
+      model.mesh, {model.parts.thickness().data(), static_cast<std::size_t>(model.parts.thickness_size())});
   facts["thickness"] = {{"highest", highest}, {"greatest", greatest}};
   add_marks(arrays, model, scale);
   facts["eroded"] = add_eroded(arrays, model, box);
