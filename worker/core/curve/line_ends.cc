@@ -128,8 +128,14 @@ Vec3 outward(std::span<const Vec3> places, std::span<const std::uint32_t> line, 
   };
   const std::size_t far = go_on(0), farther = go_on(far);
   const Vec3 here = places[line[0]] - places[line[far]], there = places[line[far]] - places[line[farther]];
-  const double bend = norm(there) < stretch ? 0 : 0.5 * (1 + gap / stretch);
-  return unit(unit(here) + bend * (unit(here) - unit(there)));
+  if (norm(there) < stretch) return unit(here);
+  // As far as the line turns as much within the first stretch: a corner farther on says nothing of its beginning.
+  std::size_t half = 0;
+  while (half < far && norm(places[line[half]] - places[line[0]]) < 0.5 * stretch) ++half;
+  const Vec3 near = unit(places[line[0]] - places[line[half]]) - unit(places[line[half]] - places[line[far]]);
+  const Vec3 turn = unit(here) - unit(there);
+  const double share = norm(turn) > 0 ? std::min(1.0, 2 * norm(near) / norm(turn)) : 0;
+  return unit(unit(here) + (0.5 * (1 + gap / stretch) * share) * turn);
 }
 
 Vec3 direction_in_ball(std::span<const Vec3> places, std::span<const std::uint32_t> line, std::size_t n,

@@ -11,7 +11,7 @@
 namespace affskel::core {
 
 /// The direction of a line, `gap` beyond its first vertex: it bends on there as it does over its first two stretches, as far
-/// as it is known.  0 where it has none.
+/// as it is known and bends so within the first.  0 where it has none.
 Vec3 outward(std::span<const Vec3> places, std::span<const std::uint32_t> line, double stretch, double gap);
 
 /// The direction of a line at its n-th vertex, by what lies in a ball about it.  0 where it has none.

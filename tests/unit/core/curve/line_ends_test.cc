@@ -77,5 +77,14 @@ TEST(LineEnds, BeyondItALineBendsOnAsItDoes) {
   EXPECT_EQ(outward(circle, std::vector<std::uint32_t>{3}, 2, 0), (Vec3{}));
 }
 
+// A post that turns into a rail at its top, as a chair's.
+TEST(LineEnds, BeyondItALineDoesNotBendByACornerFartherOn) {
+  std::vector<Vec3> post;
+  for (int n = 0; n < 20; ++n) post.push_back({std::max(0.0, 0.2 * n - 2.2), 0, std::min(2.2, 0.2 * n)});
+  std::vector<std::uint32_t> line(post.size());
+  std::iota(line.begin(), line.end(), 0U);
+  for (const double gap : {0., 1.}) EXPECT_LT(norm(outward(post, line, 1.5, gap) - Vec3{0, 0, -1}), 1e-9);
+}
+
 }  // namespace
 }  // namespace affskel::core
