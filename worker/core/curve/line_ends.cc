@@ -129,12 +129,15 @@ Vec3 outward(std::span<const Vec3> places, std::span<const std::uint32_t> line, 
   const std::size_t far = go_on(0), farther = go_on(far);
   const Vec3 here = places[line[0]] - places[line[far]], there = places[line[far]] - places[line[farther]];
   if (norm(there) < stretch) return unit(here);
-  // As far as the line turns as much within the first stretch: a corner farther on says nothing of its beginning.
+  // Less where it turns less than half as much within the first stretch as an arc would: a corner farther on says nothing of its
+  // beginning.
+  constexpr double kTurns =
+      4;  // an arc turns half as much from half to half of a stretch as from one to the next
   std::size_t half = 0;
   while (half < far && norm(places[line[half]] - places[line[0]]) < 0.5 * stretch) ++half;
   const Vec3 near = unit(places[line[0]] - places[line[half]]) - unit(places[line[half]] - places[line[far]]);
   const Vec3 turn = unit(here) - unit(there);
-  const double share = norm(turn) > 0 ? std::min(1.0, 2 * norm(near) / norm(turn)) : 0;
+  const double share = norm(turn) > 0 ? std::min(1.0, kTurns * norm(near) / norm(turn)) : 0;
   return unit(unit(here) + (0.5 * (1 + gap / stretch) * share) * turn);
 }
 
