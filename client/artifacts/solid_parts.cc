@@ -71,9 +71,7 @@ ThicknessScale thickness_scale(const core::Mesh& surface, std::span<const double
   std::vector<std::pair<double, double>> thickest;  // with the area
   double rest = 0;
   for (std::size_t t = 0; t < thickness.size(); ++t) {
-    const auto& [a, b, c] = surface.triangles[t];
-    const core::Vec3& p = surface.points[a];
-    const double area = core::norm(core::cross(surface.points[b] - p, surface.points[c] - p));
+    const double area = core::norm(core::twice_area(surface, surface.triangles[t]));
     thickest.emplace_back(thickness[t], area);
     rest += kRest * area;
   }

@@ -19,9 +19,8 @@ core::Mesh surface_of(const v1::SolidParts& parts);
 
 /// What the colours of thickness go up to.
 struct ThicknessScale {
-  double highest = 0;  ///< mesh units, > 0 unless all are 0
-  double greatest =
-      0;  ///< of a hundredth of the surface, at most, that is thicker and has the last colour; else the same
+  double highest = 0;   ///< mesh units, > 0 unless all are 0
+  double greatest = 0;  ///< of all: more where that has the last colour, too
 };
 
 /// Up to the greatest, unless a hundredth of the surface has a third more than all the rest: where there is no skeleton below

@@ -82,10 +82,8 @@ class SigningIn(OnABench):
         self.assertFalse(page.find("#server-link").is_displayed())
         page.submit(self.bench.path("body.off"), 20000, "body of ada")
         page.skeleton_is_drawn()
-        page.click("#interactive")
-        page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
-        page.driver.switch_to.default_content()
+        with page.turning_view():
+            pass
         page.click("#close-interactive")
         page.wait(lambda: not page.all("dialog"))
         # By key: Chromium may still send the mouse to the frame that has just gone.

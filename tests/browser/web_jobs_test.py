@@ -45,13 +45,9 @@ class Jobs(OnThePage):
         page = self.page
         self.submit_body(2000, "closed")
         for close in ("back", "escape", "escape within"):
-            page.click("#interactive")
-            frame = page.shown("dialog iframe")
-            page.driver.switch_to.frame(frame)
-            page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
-            if close == "escape within":
-                page.find("#canvas").send_keys(Keys.ESCAPE)
-            page.driver.switch_to.default_content()
+            with page.turning_view():
+                if close == "escape within":
+                    page.find("#canvas").send_keys(Keys.ESCAPE)
             if close == "back":
                 page.driver.back()
             elif close == "escape":
@@ -165,18 +161,15 @@ class Jobs(OnThePage):
 
     def test_turns_the_skeleton(self):
         self.submit_body(8000, "turned")
-        self.page.click("#interactive")
-        frame = self.page.shown("dialog iframe")
-        self.page.driver.switch_to.frame(frame)
-        state = self.page.wait(lambda: self.page.script("return window.affskel && affskel.state()"))
-        self.assertGreater(state["skeletonShown"], 100, "the ridge's sheet")
-        self.assertGreaterEqual(len(state["levels"]), 3)
-        self.page.find("#view-front").click()
-        front = self.page.script("return affskel.state().camera.position")
-        self.page.find("#canvas").send_keys(Keys.ARROW_LEFT)
-        self.page.wait(lambda: self.page.script("return affskel.state().camera.position") != front)
-        self.assertEqual(self.page.script("return window.origin"), "null", "in a sandbox of its own")
-        self.page.driver.switch_to.default_content()
+        with self.page.turning_view():
+            state = self.page.script("return affskel.state()")
+            self.assertGreater(state["skeletonShown"], 100, "the ridge's sheet")
+            self.assertGreaterEqual(len(state["levels"]), 3)
+            self.page.find("#view-front").click()
+            front = self.page.script("return affskel.state().camera.position")
+            self.page.find("#canvas").send_keys(Keys.ARROW_LEFT)
+            self.page.wait(lambda: self.page.script("return affskel.state().camera.position") != front)
+            self.assertEqual(self.page.script("return window.origin"), "null", "in a sandbox of its own")
         self.page.screenshot("desktop-4-turned")
         self.page.click("#close-interactive")
         self.page.wait(lambda: not self.page.all("dialog"))
@@ -238,10 +231,8 @@ class Phone(OnThePage):
         page.skeleton_is_drawn()
         self.assert_fits()
         page.screenshot("phone-2-done")
-        page.click("#interactive")
-        page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown > 0"))
-        page.driver.switch_to.default_content()
+        with page.turning_view():
+            pass
         page.screenshot("phone-3-turned")
         page.click("#close-interactive")
         page.click("nav a[href='#jobs']")

@@ -69,6 +69,15 @@ class Visitor:
             ended.msg = f"{message}: the page says:\n{self.text()}"
             raise
 
+    @contextlib.contextmanager
+    def turning_view(self, shows="skeletonShown > 0"):
+        """Opens the view that is turned, and is in it once its state shows that; it stays open."""
+        self.click("#interactive")
+        self.driver.switch_to.frame(self.shown("dialog iframe"))
+        self.wait(lambda: self.script(f"return window.affskel && affskel.state().{shows}"))
+        yield
+        self.driver.switch_to.default_content()
+
     def shown(self, selector):
         """The first element of that kind that is seen, once there is one."""
         return self.wait(lambda: next((e for e in self.all(selector) if e.is_displayed()), None), selector)

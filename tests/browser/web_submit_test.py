@@ -120,11 +120,8 @@ class Submitting(OnThePage):
         page.find("#download-threshold").click()
         page.wait(lambda: any("threshold 3" in e.text for e in page.all(".card [role=status]")))
         with_level = page.find("img.picture").get_attribute("src")
-        page.click("#interactive")
-        page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().erodedShown?.[0] > 0"))
-        self.assertAlmostEqual(page.script("return affskel.state().level"), 0.125)
-        page.driver.switch_to.default_content()
+        with page.turning_view("erodedShown?.[0] > 0"):
+            self.assertAlmostEqual(page.script("return affskel.state().level"), 0.125)
         page.screenshot("desktop-16-level")
         page.click("#close-interactive")
         page.wait(lambda: not page.all("dialog"))
@@ -153,11 +150,8 @@ class Submitting(OnThePage):
         self.assertNotEqual(page.driver.current_url.split("/")[-1], first)
         page.click("#beside")
         page.wait(lambda: page.all(f"#beside option[value='{first}']"))[0].click()
-        page.click("#interactive")
-        page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown"))
-        self.assertEqual(page.script("return affskel.state().shown.length"), 2)
-        page.driver.switch_to.default_content()
+        with page.turning_view():
+            self.assertEqual(page.script("return affskel.state().shown.length"), 2)
         page.screenshot("desktop-9-beside")
         page.click("#close-interactive")
 
@@ -165,7 +159,7 @@ class Submitting(OnThePage):
         page = self.page
         job = self.bench.run("submit", self.bench.path("box.off"), "--spacing", "12.5", "--directions",
                              "triangles+sphere:200", "--frame", "pca",
-                        "--minimum", "infimum", "--operator", "chords", "--name", "other", "--wait").strip()
+                             "--minimum", "infimum", "--operator", "chords", "--name", "other", "--wait").strip()
         page.script(f"location.hash = '#new/{job}'")
         page.picture_is_drawn("#found img")
         values = {name: page.wait(lambda: page.find(f"#{name}").get_attribute("value"))
@@ -191,13 +185,10 @@ class Submitting(OnThePage):
         with open(self.bench.path("open.off"), encoding="ascii") as came:
             self.assertEqual(self.bench.run("fetch", job, "source", "-o", "-"), came.read())
         self.assertTrue(page.all("[data-file='source.off']"))
-        page.click("#interactive")
-        page.driver.switch_to.frame(page.shown("dialog iframe"))
-        page.wait(lambda: page.script("return window.affskel && affskel.state().skeletonShown"))
-        self.assertTrue(page.shown("#show-marks").is_selected())
-        self.assertGreater(page.script("return affskel.state().marked"), 2, "the rim of the hole")
-        self.assertIn("filled", page.find("#warnings").text)
-        page.driver.switch_to.default_content()
+        with page.turning_view():
+            self.assertTrue(page.shown("#show-marks").is_selected())
+            self.assertGreater(page.script("return affskel.state().marked"), 2, "the rim of the hole")
+            self.assertIn("filled", page.find("#warnings").text)
         page.screenshot("desktop-14-repaired")
 
     def test_several_files_become_a_job_each(self):

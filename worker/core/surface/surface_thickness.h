@@ -10,9 +10,8 @@
 namespace affskel::core {
 
 struct ThicknessOptions {
-  double near =
-      0;  ///< what comes so near to the skeleton has reached it, scaled units, > 0: half a spacing, the longest
-  unsigned threads = 1;                 ///< >= 1; the result does not depend on it
+  double near = 0;       ///< that near, the skeleton is reached: scaled units, > 0; half a spacing
+  unsigned threads = 1;  ///< >= 1; the result does not depend on it
   ExecutionContext* context = nullptr;  ///< asked whether to stop
 };
 
