@@ -88,11 +88,12 @@ const core::CurveSkeleton& CurveOfField::for_report(double threshold) const {
   return curves.emplace(options.least_reach, std::move(curve)).first->second;
 }
 
-v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold) const {
+v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, double threshold,
+                                             Compared compared) const {
   core::SheetQualityOptions options;
   options.segments = curve.segments;
   core::Mesh other;
-  if (const auto next = compared_to(threshold)) {
+  if (const auto next = compared_to(threshold); next && compared == Compared::kToNext) {
     other =
         core::mesh_of(*next <= curve.same_to ? static_cast<const core::SheetMesh&>(curve) : lines_at(*next));
     options.other = &other;
@@ -118,7 +119,8 @@ v1::SkeletonQuality CurveOfField::quality_of(const core::CurveSkeleton& curve, d
   return message;
 }
 
-v1::TriangleMesh CurveOfField::message_of(const core::CurveSkeleton& curve, double threshold) const {
+v1::TriangleMesh CurveOfField::message_of(const core::CurveSkeleton& curve, double threshold,
+                                          Compared compared) const {
   v1::TriangleMesh message;
   append_vertices(field_, curve, message);
   message.mutable_distance()->Add(curve.distance.begin(), curve.distance.end());
@@ -127,7 +129,7 @@ v1::TriangleMesh CurveOfField::message_of(const core::CurveSkeleton& curve, doub
   for (const double radius : curve.radius) message.add_radius(radius);
   for (const std::uint32_t part : graph_of(curve).part) message.add_part(part + 1);
   append_segments(curve, message);
-  *message.mutable_quality() = quality_of(curve, threshold);
+  *message.mutable_quality() = quality_of(curve, threshold, compared);
   return message;
 }
 

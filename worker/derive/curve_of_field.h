@@ -27,10 +27,15 @@ class CurveOfField {
   /// time.
   const core::CurveSkeleton& for_report(double threshold) const;
 
-  v1::SkeletonQuality quality_of(const core::CurveSkeleton& curve, double threshold) const;
+  /// Whether a report compares a curve to that of the next threshold, whose lines have to be found.
+  enum class Compared { kNo, kToNext };
+
+  v1::SkeletonQuality quality_of(const core::CurveSkeleton& curve, double threshold,
+                                 Compared compared = Compared::kToNext) const;
 
   /// As SURFACE gives it, with quality and parts.
-  v1::TriangleMesh message_of(const core::CurveSkeleton& curve, double threshold) const;
+  v1::TriangleMesh message_of(const core::CurveSkeleton& curve, double threshold,
+                              Compared compared = Compared::kToNext) const;
 
   /// In mesh coordinates.
   core::CurveGraph graph_of(const core::CurveSkeleton& curve) const;

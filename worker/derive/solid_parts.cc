@@ -43,12 +43,12 @@ class Parts {
         ridge_(field),
         sheet_(ridge_.sheet(0)),
         curves_(field, ridge_),
-        curve_(curves_.for_report(threshold)),
+        curve_(curves_.at(threshold)),
         graph_(curves_.graph_of(curve_)),
         points_(parts_of_points(curve_, graph_)) {
     core::parallel_for(field.threads(), 2, [&](std::size_t n) {
       if (n == 0)
-        *message_.mutable_curve() = curves_.message_of(curve_, threshold);
+        *message_.mutable_curve() = curves_.message_of(curve_, threshold, CurveOfField::Compared::kNo);
       else
         surface_ = core::parted_surface(solid_, field.lattice(), points_, field.context());
     });

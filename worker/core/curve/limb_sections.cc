@@ -87,17 +87,13 @@ double LimbSections::height_above(std::size_t ray, const Turn& p) const {
 }
 
 // Of the rays of a half turn those before the place, by its angle, have it on one side, those after it on the other, and
-// opposite rays have it on opposite ones.
+// opposite rays have it on opposite ones.  Without branches, which no processor could guess.
 std::uint32_t LimbSections::rays_left_of(const Turn& p) const {
   const bool upper = p[1] >= 0;
-  std::size_t before = 0, after = kRays / 2;
-  while (before < after) {
-    const std::size_t n = (before + after) / 2;
-    if ((height_above(n, p) < 0) == upper)
-      after = n;
-    else
-      before = n + 1;
-  }
+  const auto is_before = [&](std::size_t n) -> std::size_t { return (height_above(n, p) < 0) != upper; };
+  std::size_t before = 0;
+  for (std::size_t step = kRays / 4; step > 0; step /= 2) before += step * is_before(before + step - 1);
+  before += is_before(before);
   constexpr std::uint32_t kHalf = (1U << kRays / 2) - 1;
   const std::uint32_t first = upper ? kHalf & kHalf << before : kHalf >> (kRays / 2 - before);
   return first | (~first & kHalf) << kRays / 2;
