@@ -4,6 +4,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/collapse/dual_complex.h"
@@ -108,6 +111,20 @@ class CellSet {
 
 /// Whether none of a cell's cofaces is among some cells.
 bool is_bare(const DualComplex& complex, DualComplex::Cell cell, const CellSet& cells);
+
+/// Of the cells that are looked at the one nearest to the surface, by radius_about(); of equal ones the first by name.
+struct WeakestCell {
+  std::optional<DualComplex::Cell> cell;
+  double radius = 0;
+
+  /// @param of_cubes see radius_about().
+  void look_at(const DualComplex& complex, std::span<const float> of_cubes, DualComplex::Cell here) {
+    const double about = radius_about(complex, of_cubes, here);
+    if (cell && std::pair(about, here) >= std::pair(radius, *cell)) return;
+    cell = here;
+    radius = about;
+  }
+};
 
 /// Adds a cell and all cells in its boundary.
 void insert_closed(const DualComplex& complex, DualComplex::Cell cell, CellSet& set);

@@ -157,31 +157,6 @@ class DualComplex {
     return found;
   }
 
-  /// Those cubes alone, in the same order.
-  struct Cubes {
-    std::array<std::uint32_t, 8> cubes;
-    std::size_t count = 0;
-
-    const std::uint32_t* begin() const { return cubes.data(); }
-    const std::uint32_t* end() const { return cubes.data() + count; }
-  };
-  Cubes cubes_about(Cell of) const {
-    const std::uint32_t cube = cube_of(of), place = place_of(of);
-    Cubes found;
-    if (!is_regular(cube, place)) {
-      for (const Star::Member& member : star(cube, place)) found.cubes[found.count++] = member.cube;
-      return found;
-    }
-    found.cubes[found.count++] = cube;
-    for (std::uint32_t left = kAcross[place]; left != 0; left &= left - 1) {
-      const auto axis = static_cast<std::size_t>(std::countr_zero(left));
-      if (neighbour(cube, axis, 2) == kNone) continue;  // a square of the boundary
-      for (std::size_t n = 0, known = found.count; n < known; ++n)
-        found.cubes[found.count++] = neighbour(found.cubes[n], axis, 2);
-    }
-    return found;
-  }
-
   /// As many as cofaces() has.
   std::uint32_t coface_count(Cell of) const {
     const std::uint32_t cube = cube_of(of), place = place_of(of);
@@ -341,7 +316,7 @@ class DualComplex {
 inline double radius_about(const DualComplex& complex, std::span<const float> radius,
                            DualComplex::Cell cell) {
   float most = 0;
-  for (const std::uint32_t cube : complex.cubes_about(cell)) most = std::max(most, radius[cube]);
+  for (const auto& member : complex.star(cell)) most = std::max(most, radius[member.cube]);
   return static_cast<double>(most);
 }
 

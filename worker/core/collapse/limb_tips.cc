@@ -208,7 +208,6 @@ class LineThinning {
   void keep_tip(const Line& line) {
     if (line.reach < least_reach_) return;
     tips_.emplace_back(line.order, LimbTip{.vertex = tip_of(line),
-                                           .root = line.root,
                                            .radius = solid_.radius_at(line.root),
                                            .width = line.width,
                                            .reach = line.reach,

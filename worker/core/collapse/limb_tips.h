@@ -12,12 +12,11 @@ namespace affskel::core {
 /// Where a limb of the solid ends: the end of the line that is left of it when the solid is thinned.
 struct LimbTip {
   DualComplex::Cell vertex = 0;
-  DualComplex::Cell root = 0;  ///< where the limb begins to be one
-  double radius = 0;           ///< distance of the root to the surface, spacings
-  double width = 0;            ///< half the limb's width there, across its wider side, spacings
-  double reach = 0;            ///< the greatest way along the line from there over the birth of an edge
-  double length = 0;           ///< the greatest way, spacings
-  bool is_cut = false;         ///< it ends at a lone edge that was taken out
+  double radius = 0;    ///< distance of its root, where the limb begins to be one, to the surface, spacings
+  double width = 0;     ///< half the limb's width there, across its wider side, spacings
+  double reach = 0;     ///< the greatest way along the line from there over the birth of an edge
+  double length = 0;    ///< the greatest way, spacings
+  bool is_cut = false;  ///< it ends at a lone edge that was taken out
 };
 
 /// What is found as lines are eaten.

@@ -118,9 +118,9 @@ Vec3 SheetFronts::sheet_normal(Cell square, std::size_t across) const {
 // a spacing long, along one axis, would take it longer than the front took: lines of round limbs were born late then,
 // at 1.4 to 1.8 times their radius.
 bool SheetFronts::is_passed(Cell cell, Cell coface) const {
-  const auto about = complex_.cubes_about(coface);
+  const DualComplex::Star about = complex_.star(coface);
   Vec3 slope;
-  for (const std::uint32_t cube : about) slope = slope + slope_at(cube);
+  for (const auto& member : about) slope = slope + slope_at(member.cube);
   slope = (1 / static_cast<double>(about.count)) * slope;
   if (norm(slope) <= kOffAxis) return false;
   if (DualComplex::dimension(coface) == 1) return true;

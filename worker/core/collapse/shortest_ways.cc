@@ -7,6 +7,13 @@
 #include "core/base/bucket_queue.h"
 
 namespace affskel::core {
+
+CellSet closure_of(const DualComplex& complex, std::span<const Anchor> anchors) {
+  CellSet closure(complex);
+  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, closure);
+  return closure;
+}
+
 std::vector<float> shortest_ways(const DualComplex& complex, std::span<const Anchor> anchors,
                                  std::span<const float> cost, ExecutionContext* context) {
   constexpr float kBuckets = 8;  // per spacing of cost 1

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/execution_context.h"
+#include "core/collapse/cell_sets.h"
 #include "core/collapse/dual_complex.h"
 
 namespace affskel::core {
@@ -19,6 +20,9 @@ struct Anchor {
   float weight = 0;            ///< of squares: the lightest one opens the pocket that it bounds
   bool is_end = false;         ///< where a line ends: the ways of others do not lead to it
 };
+
+/// All of these and their boundaries.
+CellSet closure_of(const DualComplex& complex, std::span<const Anchor> anchors);
 
 /// Of a step to a neighbouring cube, by how many axes it goes along; spacings.
 inline constexpr std::array<float, 4> kStepLength{0, 1, std::numbers::sqrt2_v<float>,

@@ -53,6 +53,12 @@ std::vector<CellPlace> cells_of_vertices(const Lattice& lattice, std::span<const
   return result;
 }
 
+std::vector<Vec3> places_of_vertices(const Lattice& lattice, std::span<const Cell> vertices) {
+  std::vector<Vec3> places;
+  for (const CellPlace& cell : cells_of_vertices(lattice, vertices)) places.push_back(middle_of(cell));
+  return places;
+}
+
 EdgeCells edge_cells(const Lattice& lattice, const DualComplex& complex, const SolidParts& parts,
                      std::span<const LatticeEdge> edges) {
   constexpr std::size_t kMaxEdges = (std::size_t{1} << 30) - 1;  // four entries each, numbered in 32 bits

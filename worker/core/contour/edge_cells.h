@@ -46,4 +46,7 @@ inline Vec3 middle_of(const CellPlace& cell) {
   return vector_of(cell) + Vec3{0.5, 0.5, 0.5};
 }
 
+/// Of the cells that vertices of the complex are dual to.
+std::vector<Vec3> places_of_vertices(const Lattice& lattice, std::span<const DualComplex::Cell> vertices);
+
 }  // namespace affskel::core

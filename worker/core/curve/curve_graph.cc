@@ -248,25 +248,13 @@ class GraphOfCurve {
     branch.mean_radius = length > 0 ? sum / length : branch.least_radius;
   }
 
-  // The place so far along a branch, from its first vertex, outside of bodies, or from its last.
-  Vec3 place_along(const CurveBranch& branch, bool from_last, double way) const {
-    const auto line = outside_bodies(branch);
-    const std::size_t count = line.size();
-    const auto at = [&](std::size_t n) { return places_[point_from(from_last, line, n)]; };
-    for (std::size_t n = 1; n < count; ++n) {
-      const double length = norm(at(n) - at(n - 1));
-      if (way <= length && length > 0) return at(n - 1) + (way / length) * (at(n) - at(n - 1));
-      way -= length;
-    }
-    return at(count - 1);
-  }
-
   // Away from the end, from where the branch leaves the joint's thickness; of a body it begins there.
   Vec3 direction(const CurveBranch& branch, bool from_last) const {
     const std::uint32_t joint = from_last ? branch.vertices.back() : branch.vertices.front();
     const double begin = is_body(joint) ? 0 : std::min(radius_[joint], 0.5 * branch.length);
     const double end = std::min(begin + kStretch * branch.mean_radius, branch.length);
-    return unit(place_along(branch, from_last, end) - place_along(branch, from_last, begin));
+    const auto line = outside_bodies(branch);
+    return unit(place_along(places_, line, from_last, end) - place_along(places_, line, from_last, begin));
   }
 
   // The first other branch at an end.

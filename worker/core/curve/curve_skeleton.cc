@@ -84,9 +84,8 @@ bool add_flat_limbs(const RidgeSheet& ridge, std::span<const double> balls, doub
 std::vector<Vec3> places_of(const Lattice& lattice, const std::vector<LimbTip>& limbs) {
   std::vector<DualComplex::Cell> tips;
   for (const LimbTip& limb : limbs) tips.push_back(limb.vertex);
-  std::vector<Vec3> places;
-  for (const CellPlace& cell : cells_of_vertices(lattice, tips))
-    places.push_back(lattice.spacing * middle_of(cell));
+  std::vector<Vec3> places = places_of_vertices(lattice, tips);
+  for (Vec3& place : places) place = lattice.spacing * place;
   return places;
 }
 

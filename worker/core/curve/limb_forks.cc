@@ -7,29 +7,6 @@ namespace {
 
 constexpr int kHalves = 5;  // of a step: how exactly a fork is found
 
-// A line from one of its ends on.
-class Walk {
- public:
-  Walk(std::span<const Vec3> places, std::span<const std::uint32_t> line, bool back) {
-    for (std::size_t n = 0; n < line.size(); ++n) {
-      const Vec3& at = places[point_from(back, line, n)];
-      way_.push_back(n == 0 ? 0 : way_.back() + norm(at - places_.back()));
-      places_.push_back(at);
-    }
-  }
-  double length() const { return way_.back(); }
-  Vec3 at(double way) const {
-    const auto next = std::upper_bound(way_.begin(), way_.end(), way);
-    if (next == way_.end()) return places_.back();
-    const auto n = static_cast<std::size_t>(next - way_.begin());
-    return places_[n - 1] + ((way - way_[n - 1]) / (way_[n] - way_[n - 1])) * (places_[n] - places_[n - 1]);
-  }
-
- private:
-  std::vector<Vec3> places_;
-  std::vector<double> way_;
-};
-
 }  // namespace
 
 double ahead(const Vec3& way, const Vec3& direction) {
@@ -45,13 +22,18 @@ std::vector<std::vector<LimbFork>> limb_forks(std::span<const Vec3> places,
   std::vector<std::vector<LimbFork>> forks(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
     if (ends[v].size() < 3 || (!left_out.empty() && left_out[v])) continue;
-    std::vector<Walk> walks;
-    for (const LineEnd& end : ends[v]) walks.push_back({places, lines[end.line], end.back});
-    for (std::size_t a = 0; a < walks.size(); ++a)
-      for (std::size_t b = a + 1; b < walks.size(); ++b) {
+    const auto at = [&](const LineEnd& end, double way) {
+      return place_along(places, lines[end.line], end.back, way);
+    };
+    std::vector<double> lengths;
+    for (const LineEnd& end : ends[v]) lengths.push_back(length_of(places, lines[end.line]));
+    for (std::size_t a = 0; a < lengths.size(); ++a)
+      for (std::size_t b = a + 1; b < lengths.size(); ++b) {
         const bool is_loop = ends[v][a].line == ends[v][b].line;
-        const double most = (is_loop ? 0.5 : 1) * std::min(walks[a].length(), walks[b].length());
-        const auto parted = [&](double way) { return sections.parted(walks[a].at(way), walks[b].at(way)); };
+        const double most = (is_loop ? 0.5 : 1) * std::min(lengths[a], lengths[b]);
+        const auto parted = [&](double way) {
+          return sections.parted(at(ends[v][a], way), at(ends[v][b], way));
+        };
         double sees = 0, way = step;
         while (way < most && !parted(way)) {
           sees = way;

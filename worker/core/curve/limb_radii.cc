@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/base/plain_math.h"
 #include "core/mesh/polylines.h"
 
 namespace affskel::core {
@@ -103,8 +104,8 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
     }
   }
   for (std::uint32_t v = 0; v < vertices; ++v)
-    if (!in_line[v] || (ends[v] > 2 && input.share[v] > input.slice[v]))
-      radius[v] = std::cbrt(0.75 / std::numbers::pi * input.volume * input.share[v]);
+    if (input.share[v] > 0 && (!in_line[v] || (ends[v] > 2 && input.share[v] > input.slice[v])))
+      radius[v] = cube_root(0.75 / std::numbers::pi * input.volume * input.share[v]);
   return radius;
 }
 

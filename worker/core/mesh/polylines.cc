@@ -75,6 +75,16 @@ std::vector<std::vector<LineEnd>> line_ends(std::size_t points,
   return ends;
 }
 
+Vec3 place_along(std::span<const Vec3> places, std::span<const std::uint32_t> line, bool back, double way) {
+  const auto at = [&](std::size_t n) { return places[point_from(back, line, n)]; };
+  for (std::size_t n = 1; n < line.size(); ++n) {
+    const double length = norm(at(n) - at(n - 1));
+    if (way <= length && length > 0) return at(n - 1) + (way / length) * (at(n) - at(n - 1));
+    way -= length;
+  }
+  return at(line.size() - 1);
+}
+
 double length_of(std::span<const Vec3> places, std::span<const std::uint32_t> line) {
   double length = 0;
   for (std::size_t n = 1; n < line.size(); ++n) length += norm(places[line[n]] - places[line[n - 1]]);

@@ -36,6 +36,9 @@ std::vector<std::uint32_t> ends_of(std::size_t points, std::span<const std::vect
 std::vector<std::vector<LineEnd>> line_ends(std::size_t points,
                                             std::span<const std::vector<std::uint32_t>> lines);
 
+/// The place so far along a line from one of its ends on; its other end where it is not so long.
+Vec3 place_along(std::span<const Vec3> places, std::span<const std::uint32_t> line, bool back, double way);
+
 /// Of a line, from point to point.
 double length_of(std::span<const Vec3> places, std::span<const std::uint32_t> line);
 

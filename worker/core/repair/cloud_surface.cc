@@ -18,6 +18,7 @@
 #include "base/number_text.h"
 #include "core/base/error.h"
 #include "core/base/median.h"
+#include "core/base/plain_math.h"
 #include "core/mesh/box.h"
 #include "core/shapes/implicit_mesh.h"
 #include "core/shapes/surface_mesh.h"
@@ -189,7 +190,7 @@ class Surfacing {
     const Box box = box_of(places());
     ImplicitMeshOptions cubes;
     const Vec3 sides = box.sides() + 16 * kCube * Vec3{1, 1, 1};
-    cubes.spacing = std::max(kCube, std::cbrt(sides.x * sides.y * sides.z / kMostCubes));
+    cubes.spacing = std::max(kCube, cube_root(sides.x * sides.y * sides.z / kMostCubes));
     const Vec3 margin = 8 * cubes.spacing * Vec3{1, 1, 1};
     cubes.low = box.low - margin;
     cubes.high = box.high + margin;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -38,11 +37,11 @@ class Openings {
         if (!fresh) membranes.unite(n, known->second);
       });
     }
-    std::map<std::uint32_t, Weakest> weakest;  // by membrane
+    std::map<std::uint32_t, WeakestCell> weakest;  // by membrane
     for (std::uint32_t n = 0; n < squares_.size(); ++n) look_at(squares_[n], weakest[membranes.find(n)]);
     std::vector<Cell> result;
     for (const auto& [membrane, found] : weakest)
-      if (found) result.push_back(found->second);
+      if (found.cell) result.push_back(*found.cell);
     return result;
   }
 
@@ -56,28 +55,23 @@ class Openings {
       if (!is_bored(vertices) ||
           std::any_of(vertices.begin(), vertices.end(), [&](Cell v) { return passed.contains(v); }))
         continue;
-      Weakest weakest;
+      WeakestCell weakest;
       for (const Cell edge : edges)
         if (is_bare(complex_, edge, left_)) look_at(edge, weakest);
-      if (!weakest) continue;
-      result.push_back(weakest->second);
+      if (!weakest.cell) continue;
+      result.push_back(*weakest.cell);
       passed.insert(vertices.begin(), vertices.end());
     }
     return result;
   }
 
  private:
-  using Weakest = std::optional<std::pair<double, Cell>>;  // by distance to the surface
-
-  void look_at(Cell cell, Weakest& weakest) const {
-    if (keep_.has(cell)) return;
-    const std::pair here(radius_about(complex_, solid_.radius, cell), cell);
-    if (!weakest || here < *weakest) weakest = here;
+  void look_at(Cell cell, WeakestCell& weakest) const {
+    if (!keep_.has(cell)) weakest.look_at(complex_, solid_.radius, cell);
   }
 
   bool is_bored(const std::vector<Cell>& loop) const {
-    std::vector<Vec3> places;
-    for (const CellPlace& cell : cells_of_vertices(solid_.lattice, loop)) places.push_back(vector_of(cell));
+    const std::vector<Vec3> places = places_of_vertices(solid_.lattice, loop);
     for (std::size_t n = 0; n < loop.size(); ++n) {
       const double reach = kBored * radius_about(complex_, solid_.thickness, loop[n]);
       if (std::all_of(places.begin(), places.end(),
@@ -98,8 +92,7 @@ class Openings {
 BoredCells bored_cells(const NoisySolid& solid, const CellSet& left, std::span<const Anchor> anchors,
                        ExecutionContext* context) {
   const DualComplex& complex = solid.complex;
-  CellSet keep(complex);
-  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, keep);
+  const CellSet keep = closure_of(complex, anchors);
   BoredCells result{{}, left, CellSet(complex)};
   while (true) {
     result.graph = collapsed(complex, result.left, {}, context);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -65,21 +66,13 @@ class Tunnels {
     return result;
   }
 
-  // The edge of a cycle nearest to the surface among those of no square that may go; kNoCell.
-  Cell weakest_edge(const Cycle& cycle, const CellSet& left, const CellSet& anchored) const {
-    Cell weakest = kNoCell;
-    double least = 0;
-    for (const Cell edge : cycle.edges) {
-      if (anchored.has(edge) || !is_bare(complex_, edge, left)) continue;
-      const double most = radius_about(complex_, radius_, edge);
-      if (weakest != kNoCell && most >= least) continue;
-      weakest = edge;
-      least = most;
-    }
-    return weakest;
+  // The edge of a cycle nearest to the surface among those of no square that may go.
+  std::optional<Cell> weakest_edge(const Cycle& cycle, const CellSet& left, const CellSet& anchored) const {
+    WeakestCell weakest;
+    for (const Cell edge : cycle.edges)
+      if (!anchored.has(edge) && is_bare(complex_, edge, left)) weakest.look_at(complex_, radius_, edge);
+    return weakest.cell;
   }
-
-  static constexpr Cell kNoCell = ~Cell{0};
 
  private:
   static std::size_t first_of(const Cycle& cycle) {
@@ -141,14 +134,14 @@ class OpenLines {
   // A line reaches as far as it goes on beyond the largest ball about where it begins.
   LimbTip tip_at(Cell end) const {
     const std::vector<Cell> line = line_to(end);
-    const std::vector<Vec3> places = places_of(line);
+    const std::vector<Vec3> places = places_of_vertices(lattice_, line);
     const double ball = radius_at(line.front());
     const auto from = [&](std::size_t n) { return norm(places[n] - places.front()); };
     std::size_t root = 0;
     while (root + 1 < line.size() && from(root) < ball) ++root;
     const double width = radius_at(line[root]);
     const double length = from(line.size() - 1) - ball;
-    return {end, line[root], width, width, length / std::max(width, kLeastWidth), length};
+    return {end, width, width, length / std::max(width, kLeastWidth), length};
   }
 
  private:
@@ -168,13 +161,6 @@ class OpenLines {
     std::vector<Cell> line{queue[std::min(n, queue.size() - 1)]};
     while (line.back() != end) line.push_back(next.at(line.back()));
     return line;
-  }
-
-  // Spacings.
-  std::vector<Vec3> places_of(const std::vector<Cell>& line) const {
-    std::vector<Vec3> places;
-    for (const CellPlace& cell : cells_of_vertices(lattice_, line)) places.push_back(vector_of(cell));
-    return places;
   }
 
   double radius_at(Cell vertex) const { return radius_about(complex_, radius_, vertex); }
@@ -201,19 +187,18 @@ FilledTunnels fill_tunnels(const Solid& solid, const Lattice& lattice, const Dua
   std::vector<Cycle> cycles;
   for (const auto& loop : loops) cycles.push_back(tunnels.cycle_of(loop));
   cycles = Tunnels::bounding(std::move(cycles));
-  CellSet anchored(complex);
-  for (const Anchor& anchor : anchors) insert_closed(complex, anchor.cell, anchored);
+  const CellSet anchored = closure_of(complex, anchors);
   FilledTunnels filled;
   std::vector<Cell> ends;
   for (std::size_t n = 0; n < cycles.size(); ++n) {
     throw_if_stopped(context);
-    const Cell edge = tunnels.weakest_edge(cycles[n], left, anchored);
-    if (edge == Tunnels::kNoCell) continue;
-    left.erase(edge);
-    filled.edges.push_back(edge);
-    complex.for_each_face(edge, [&](Cell vertex) { ends.push_back(vertex); });
+    const auto edge = tunnels.weakest_edge(cycles[n], left, anchored);
+    if (!edge) continue;
+    left.erase(*edge);
+    filled.edges.push_back(*edge);
+    complex.for_each_face(*edge, [&](Cell vertex) { ends.push_back(vertex); });
     for (std::size_t other = n + 1; other < cycles.size(); ++other)
-      if (cycles[other].has(edge)) cycles[other].add(cycles[n]);
+      if (cycles[other].has(*edge)) cycles[other].add(cycles[n]);
   }
   if (filled.edges.empty()) return filled;
   const CellSet rest = collapsed(complex, left, anchors, context);

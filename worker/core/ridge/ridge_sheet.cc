@@ -116,7 +116,7 @@ std::vector<LatticeLoop> loops_of(const Lattice& lattice, const DualComplex& com
   std::vector<LatticeLoop> result;
   for (const CellLoop& loop : shortest_loops(complex, thinned, kMaxLoops, context)) {
     Box box;
-    for (const CellPlace& cell : cells_of_vertices(lattice, loop.vertices)) box.include(middle_of(cell));
+    for (const Vec3& place : places_of_vertices(lattice, loop.vertices)) box.include(place);
     result.push_back({lattice.spacing * box.middle(), box.diagonal()});
   }
   return result;

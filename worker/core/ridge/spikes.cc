@@ -44,7 +44,7 @@ std::vector<char> possible_spikes(const Solid& solid, const Mesh& walls, const L
   std::vector<char> possible;
   possible.reserve(limbs.tips.size());
   for (const LimbTip& tip : limbs.tips) {
-    const Vec3 place = middle_of(cells_of_vertices(lattice, {&tip.vertex, 1}).front());
+    const Vec3 place = places_of_vertices(lattice, {&tip.vertex, 1}).front();
     const double near = radius_about(limbs.complex, limbs.radius, tip.vertex) + limbs.noise;
     possible.push_back(tip.length <= longest && (everywhere || crossing.nearest(place) <= near));
   }

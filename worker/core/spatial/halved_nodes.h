@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -67,6 +68,31 @@ class HalvedTree {
       }
       for (std::uint32_t at = node.first; at < node.first + node.count; ++at)
         if (items_[at] > above) visit(items_[at]);
+    }
+  }
+
+  /// Calls visit(item) for the items of all leaves whose bounds are nearer than `least`, nearer ones first.  What is
+  /// visited may lower that.
+  /// @param distance distance(bound): of all that lies in it at least that, and of a part of it no less.
+  template <class Distance, class Visit>
+  void visit_nearest(const Distance& distance, const double& least, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::pair<double, std::uint32_t>, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {-std::numeric_limits<double>::infinity(), 0};
+    while (depth > 0) {
+      const auto [away, index] = stack[--depth];
+      if (!(away < least)) continue;
+      const Node& node = nodes_[index];
+      if (node.right == 0) {
+        for (std::uint32_t at = node.first; at < node.first + node.count; ++at) visit(items_[at]);
+        continue;
+      }
+      std::pair near{distance(nodes_[index + 1].bound), index + 1};
+      std::pair far{distance(nodes_[node.right].bound), node.right};
+      if (far.first < near.first) std::swap(near, far);
+      stack[depth++] = far;
+      stack[depth++] = near;
     }
   }
 

@@ -4,13 +4,15 @@
 #include <span>
 #include <vector>
 
+#include "core/base/vec3.h"
 #include "core/mesh/box.h"
+#include "core/spatial/halved_nodes.h"
 
 namespace affskel::core {
 
-/// The distance from any place to the nearest of a set of points: a balanced k-d tree (Bentley 1975, split
-/// at the median of the longest side), built once in O(N log N).  Exact: the answer is that of a search
-/// through all points, bit for bit.  Immutable after construction; queries from several threads are safe.
+/// The distance from any place to the nearest of a set of points, by a balanced tree (see HalvedTree), built once in
+/// O(N log N).  Exact: the answer is that of a search through all points, bit for bit.  Immutable after construction;
+/// queries from several threads are safe.
 class PointIndex {
  public:
   /// @param points finite; copied, so they need not outlive the index.  May be empty.
@@ -25,25 +27,9 @@ class PointIndex {
   };
   Found find(const Vec3& place) const;
 
-  std::size_t size() const { return points_.size(); }
-
  private:
-  /// Of points_[first, first + count); its left half is the next node, its right half `right`.
-  struct Node {
-    Box box;  // tight
-    std::uint32_t first, count;
-    std::uint32_t right;  // 0: a leaf
-  };
-
-  std::uint32_t build(std::uint32_t first, std::uint32_t count);
-
-  struct Entry {
-    Vec3 at;
-    std::uint32_t number;
-  };
-
-  std::vector<Entry> points_;
-  std::vector<Node> nodes_;
+  std::vector<Vec3> points_;
+  HalvedTree<Box> tree_;
 };
 
 }  // namespace affskel::core
