@@ -40,6 +40,10 @@ double HubEllipsoid::filled_by(const PlaceMoments& points, double spacing) const
   return ball * std::sqrt(determinant(form));
 }
 
+double HubEllipsoid::shortest() const {
+  return 1 / std::sqrt(symmetric_eigen(form).values[0]);
+}
+
 bool HubEllipsoid::is_bar() const {
   const auto steep = symmetric_eigen(form).values;  // one over the squares of the axes
   return steep[1] > kBar * kBar * steep[2];

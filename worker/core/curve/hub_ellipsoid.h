@@ -23,6 +23,9 @@ struct HubEllipsoid {
   /// rods.
   double filled_by(const PlaceMoments& points, double spacing) const;
 
+  /// Its shortest half axis.
+  double shortest() const;
+
   /// Whether it is 2.25 times as long as wide.
   bool is_bar() const;
 };

@@ -1,10 +1,9 @@
 #include "core/curve/limb_hubs.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <functional>
+#include <utility>
 
 #include "core/base/median.h"
 #include "core/curve/parted_lines.h"
@@ -15,45 +14,47 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kThick = 1.55;           // times as thick as all its limbs but the thickest
-constexpr double kThicker = 1.4;          // times as thick as the thickest
-constexpr double kFilled = 0.66;          // of the ellipsoid with its moments: a network fills less
-constexpr double kFilledStrictly = 0.74;  // from about a body, or beside others: half of a gear fills less
-constexpr double kFilledAlone = 0.85;  // with what its limbs leave it: ends of these fill the ellipsoid less
-constexpr double kAbout = 2;           // times the ellipsoid of a body: what may grow, too
-constexpr double kAsFilled = 0.9;      // times what those that it joins fill of theirs
-constexpr double kTaken =
-    1.5;  // times what has grown, with what of limbs that it would grow along lies in it
-constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
+constexpr double kThick = 1.55;       // times as thick as all its limbs but the thickest
+constexpr double kThicker = 1.4;      // times as thick as the thickest
+constexpr double kLack = 2;           // of what a hub has, for each that its ellipsoid lacks
+constexpr double kTaken = 1.2;        // times what lies in its ellipsoid, with all that its limbs leave it
+constexpr double kOfTube = 1.1;       // times a limb's own sections: where they are larger, a hub begins
+constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
+constexpr double kScales[] = {1, 2};  // of the ellipsoid of a body, to begin with
+constexpr int kSteps = 100;           // bodies settle in 1 to 40
 
 class FindHubs {
  public:
   explicit FindHubs(const LimbHubsInput& input)
       : in_(input),
         ends_(ends_of(input.places.size(), input.lines)),
-        is_tried_(input.places.size(), 0),
+        tip_of_(input.places.size(), 0),
         moments_(input.places.size()),
-        stop_(input.context),
-        result_{{}, std::vector<std::uint32_t>(input.places.size(), kNone)} {}
+        stop_(input.context) {}
 
   LimbHubs run() {
     each_point([&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
     parted_ = parted_lines({in_.places, in_.lines, in_.radius, moments_, in_.lattice.spacing});
-    runs_out_.resize(parted_.limbs.size());
+    find_tips();
     join_what_touches();
-    std::vector<std::uint32_t> bodies;
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (parted_.is_body[v] && parted_.bodies.find(v) == v) bodies.push_back(v);
-    for (const std::uint32_t body : bodies) add_hub(body);
-    std::fill(is_tried_.begin(), is_tried_.end(), 0);
-    is_widened_.assign(result_.hubs.size() + bodies.size(), 0);
-    for (const std::uint32_t body : bodies) add_wide_hub(body);
-    number_hubs();
-    return std::move(result_);
+      if (parted_.is_body[v] && parted_.bodies.find(v) == v) start_from(v);
+    return chosen();
   }
 
  private:
+  struct Candidate {
+    HubEllipsoid form;
+    PlaceMoments within;         // what has settled
+    std::vector<char> has = {};  // per vertex
+    double worth = 0;            // points, less kLack of what its ellipsoid lacks
+  };
+
   bool is_joint(std::uint32_t v) const { return ends_[v] > 2; }
+  double diameter_of(double count) const { return 2 * ball_radius(count, in_.lattice.spacing); }
+  HubEllipsoid ellipsoid_of(const PlaceMoments& points) const {
+    return HubEllipsoid::of(points, in_.lattice.spacing);
+  }
 
   template <class Visit>
   void each_point(const Visit& visit) {
@@ -61,6 +62,22 @@ class FindHubs {
       stop_.did(10);
       visit(in_.lattice.spacing * Vec3{double(i), double(j), double(k)}, in_.nearest[rank]);
     });
+  }
+
+  PlaceMoments moments_of(const std::vector<char>& has) {
+    stop_.did(2 * has.size());
+    PlaceMoments all;
+    for (std::size_t v = 0; v < has.size(); ++v)
+      if (has[v] != 0) all.add(moments_[v]);
+    return all;
+  }
+
+  // Of limbs that end free, their outer halves.
+  void find_tips() {
+    for (PartedLimb& limb : parted_.limbs)
+      for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
+        for (std::size_t n = 0; ends_[limb.line[0]] == 1 && 2 * n < limb.line.size(); ++n)
+          tip_of_[limb.line[n]] = limb.length;
   }
 
   // Bodies of points that follow each other in a row.
@@ -75,319 +92,152 @@ class FindHubs {
     });
   }
 
-  // A hub as large as grows from a body, as far as no other has that.  Those that it joins are no longer there; where it is
-  // none with them, it grows beside them.  What held a body, and was none, is what would grow from that.
-  void add_hub(std::uint32_t body) {
-    std::vector<std::uint32_t> own;
-    PlaceMoments all;
-    for (const std::uint32_t v : vertices_of(body)) {
-      if (result_.of[v] != kNone) continue;
-      own.push_back(v);
-      all.add(moments_[v]);
-    }
-    stop_.did(2 * ends_.size());
-    if (!may_grow(own)) return;
-    if (!(all.count > 0) && !take_near_joints(own)) return;
-    bool joins = true;
-    if (!grow_hub(own, kFilled, joins) && !joins) grow_hub(own, kFilledStrictly, joins);
-  }
-
-  std::vector<std::uint32_t> vertices_of(std::uint32_t body) {
-    std::vector<std::uint32_t> own;
-    for (std::uint32_t v = body; v < ends_.size(); ++v)
-      if (parted_.is_body[v] && parted_.bodies.find(v) == body) own.push_back(v);
-    return own;
-  }
-
-  // Whether there is a joint among them, and any that nothing has held.
-  bool may_grow(std::span<const std::uint32_t> own) const {
-    return std::ranges::any_of(own, [&](std::uint32_t v) { return is_joint(v); }) &&
-           std::ranges::any_of(own, [&](std::uint32_t v) { return is_tried_[v] == 0; });
-  }
-
-  // The same with what lies about a body, or about its hub: what is nearest to a joint may be little of a palm, and a hub
-  // may have grown no further than to a part of it.
-  void add_wide_hub(std::uint32_t body) {
-    stop_.did(2 * ends_.size());
-    std::vector<std::uint32_t> own = vertices_of(body);
-    double least_filled = kFilledStrictly;
-    std::vector<std::uint32_t> before = result_.of;
-    const auto has_hub = std::ranges::find_if(own, [&](std::uint32_t v) { return before[v] != kNone; });
-    if (has_hub != own.end()) {
-      const std::uint32_t hub = before[*has_hub];
-      if (is_widened_[hub] != 0) return;
-      is_widened_[hub] = 1;
-      least_filled = std::max(least_filled, kAsFilled * found_filled_[hub]);
-      own.clear();
-      for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-        if (before[v] != hub) continue;
-        own.push_back(v);
-        result_.of[v] = kNone;
-      }
-    }
-    bool joins = true;
-    if (may_grow(own) && take_about(own) && grow_hub(own, least_filled, joins))
-      is_widened_[result_.hubs.size() - 1] = 1;
-    else
-      result_.of = std::move(before);
-  }
-
-  // Where no sample point is nearest to a joint, what lies within half of its ball stands for it: at some spacings the arms of a
-  // starfish have all that lies about theirs.
-  // @return whether there is any.
-  bool take_near_joints(std::vector<std::uint32_t>& own) {
+  // With what lies within half of the balls of its joints: at some spacings the arms of a starfish have all that lies about
+  // theirs.
+  void start_from(std::uint32_t body) {
+    std::vector<char> has(ends_.size(), 0);
     std::vector<std::uint32_t> joints;
-    std::ranges::copy_if(own, std::back_inserter(joints), [&](std::uint32_t v) { return is_joint(v); });
+    for (std::uint32_t v = body; v < ends_.size(); ++v) {
+      has[v] = parted_.is_body[v] && parted_.bodies.find(v) == body;
+      if (has[v] != 0 && is_joint(v)) joints.push_back(v);
+    }
     stop_.did(ends_.size() * joints.size());
-    const auto is_near = [&](std::uint32_t v) {
-      return std::ranges::any_of(joints, [&](std::uint32_t joint) {
-        return norm(in_.places[v] - in_.places[joint]) <= 0.5 * in_.radius[joint];
-      });
-    };
-    const std::size_t before = own.size();
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (result_.of[v] == kNone && !parted_.is_body[v] && moments_[v].count > 0 && is_near(v))
-        own.push_back(v);
-    return own.size() > before;
-  }
-
-  // Adds to what is a body's own what lies about it.
-  // @return whether that is anything, and no end of a long limb, which the body would grow along.
-  bool take_about(std::vector<std::uint32_t>& own) {
-    stop_.did(8 * ends_.size());
-    PlaceMoments all;
-    for (const std::uint32_t v : own) all.add(moments_[v]);
-    if (!(all.count > 0)) return false;
-    HubEllipsoid about = ellipsoid_of(all);
-    about.form = (1 / (kAbout * kAbout)) * about.form;
-    const std::size_t before = own.size();
-    std::vector<char> is_own(ends_.size(), 0);
-    for (const std::uint32_t v : own) is_own[v] = 1;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      if (is_own[v] != 0 || result_.of[v] != kNone || !holds(about, v)) continue;
-      if (is_long_end(v, all.count)) return false;
-      own.push_back(v);
-    }
-    return own.size() > before;
-  }
-
-  // @param joins whether it may join others; false then where it has, and was none.
-  bool grow_hub(std::span<const std::uint32_t> own, double least_filled, bool& joins) {
-    const std::vector<std::uint32_t> before = result_.of;
-    const auto number = static_cast<std::uint32_t>(result_.hubs.size());
-    std::fill(runs_out_.begin(), runs_out_.end(), 0);
-    Growth growth{.number = number,
-                  .joins = joins,
-                  .may_be_filled_alone = least_filled == kFilled,
-                  .least_filled = least_filled};
-    do {
-      result_.of = before;
-      growth.all = {};
-      for (const std::uint32_t v : own) {
-        result_.of[v] = number;
-        growth.all.add(moments_[v]);
+      if (std::ranges::any_of(joints, [&](std::uint32_t joint) {
+            return norm(in_.places[v] - in_.places[joint]) <= 0.5 * in_.radius[joint];
+          }))
+        has[v] = 1;
+    const PlaceMoments all = moments_of(has);
+    if (!(all.count > 0)) return;
+    for (const double scale : kScales)
+      for (const bool with_tips : {true, false}) {
+        Candidate found{ellipsoid_of(all), all};
+        found.form.form = (1 / (scale * scale)) * found.form.form;
+        if (settle(found, with_tips) && is_hub(found)) found_.push_back(std::move(found));
       }
-    } while (!grow(growth));
-    const std::vector<std::uint32_t> grown = result_.of;
-    if (is_hub(growth)) {
-      result_.hubs.push_back({growth.hub, joint_of(number, growth.hub.centre)});
-      found_filled_.push_back(growth.filled);
-      return true;
-    }
-    joins = !growth.has_joined;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (grown[v] == number && joins) is_tried_[v] = 1;
-    result_.of = before;
-    return false;
   }
 
-  // The one nearest to its middle.
-  std::uint32_t joint_of(std::uint32_t number, const Vec3& centre) const {
-    std::uint32_t joint = kNone;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      if (result_.of[v] != number || !is_joint(v)) continue;
-      if (joint == kNone || norm(in_.places[v] - centre) < norm(in_.places[joint] - centre)) joint = v;
-    }
-    return joint;
-  }
-
-  // Without those that others have joined.
-  void number_hubs() {
-    std::vector<std::uint32_t> anew(result_.hubs.size(), kNone);
-    for (const std::uint32_t number : result_.of)
-      if (number != kNone) anew[number] = 0;
-    std::vector<LimbHub> hubs;
-    for (std::size_t n = 0; n < anew.size(); ++n) {
-      if (anew[n] == kNone) continue;
-      anew[n] = static_cast<std::uint32_t>(hubs.size());
-      hubs.push_back(result_.hubs[n]);
-    }
-    for (std::uint32_t& number : result_.of)
-      if (number != kNone) number = anew[number];
-    result_.hubs = std::move(hubs);
-  }
-
-  HubEllipsoid ellipsoid_of(const PlaceMoments& points) const {
-    return HubEllipsoid::of(points, in_.lattice.spacing);
-  }
-  double radius_of(double count) const { return ball_radius(count, in_.lattice.spacing); }
-
-  // What grows, to a hub perhaps.
-  struct Growth {
-    std::uint32_t number;
-    bool joins;  // hubs that lie in it
-    bool may_be_filled_alone;
-    double least_filled;  // of its ellipsoid
-    PlaceMoments all = {};
-    HubEllipsoid hub = {};
-    bool has_joined = false;
-    double filled = 0;  // of its ellipsoid, or what its limbs leave of that one's own
-  };
-
-  // Until it holds no more.
-  // @return false where it came to free ends of limbs that are longer than it is thick: it grew along these, as a palm
-  // along the forearm, and grows anew without.
-  bool grow(Growth& growth) {
-    bool runs_out = false;
-    for (bool grows = true; grows && !runs_out;) {
-      growth.hub = ellipsoid_of(growth.all);
-      grows = growth.joins && join(growth);
-      growth.has_joined = growth.has_joined || grows;
+  // Takes what lies in the ellipsoid, and so on, until that stays.  Of a vertex the middle of what is nearest to it tells:
+  // lines may run along the rim of a head.
+  // @param with_tips or without those of limbs longer than it is thick, along which it might run.
+  // @return false where it comes to nothing.
+  bool settle(Candidate& found, bool with_tips) {
+    for (int step = 0; step < kSteps; ++step) {
       stop_.did(8 * ends_.size());
-      for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-        if (result_.of[v] != kNone || !holds(growth.hub, v)) continue;
-        if (parted_.limb[v] != kNone && runs_out_[parted_.limb[v]] != 0) continue;
-        if (is_long_end(v, growth.all.count)) runs_out_[parted_.limb[v]] = runs_out = true;
-        result_.of[v] = growth.number;
-        growth.all.add(moments_[v]);
-        grows = true;
-      }
+      const double thick = diameter_of(found.within.count);
+      std::vector<char> has(ends_.size());
+      for (std::uint32_t v = 0; v < ends_.size(); ++v)
+        has[v] = moments_[v].count > 0 && (with_tips || tip_of_[v] <= thick) &&
+                 found.form.outside(moments_[v].centre()) < 0;
+      if (has == found.has) return true;
+      found.within = moments_of(has);
+      found.has = std::move(has);
+      if (!(found.within.count > 0)) return false;
+      found.form = ellipsoid_of(found.within);
     }
-    return !runs_out;
-  }
-
-  // The middle of what is nearest to a vertex: lines may run along the rim of a head.
-  bool holds(const HubEllipsoid& hub, std::uint32_t v) const {
-    return hub.outside(moments_[v].count > 0 ? moments_[v].centre() : in_.places[v]) < 0;
-  }
-
-  // Hubs that both hold the place between their middles are one where that fills its ellipsoid about as they do theirs, as
-  // the halves of a body, and not a head and a trunk.
-  bool join(Growth& growth) {
-    bool any = false;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      const std::uint32_t other = result_.of[v];
-      if (other == kNone || other == growth.number) continue;
-      const LimbHub& found = result_.hubs[other];
-      const Vec3 between = 0.5 * (growth.hub.centre + found.centre);
-      if (growth.hub.outside(between) >= 0 || found.outside(between) >= 0) continue;
-      growth.least_filled = std::max(growth.least_filled, kAsFilled * found_filled_[other]);
-      result_.of[v] = growth.number;
-      growth.all.add(moments_[v]);
-      any = true;
-    }
-    return any;
-  }
-
-  bool is_long_end(std::uint32_t v, double count) const {
-    return ends_[v] == 1 && parted_.limb[v] != kNone &&
-           parted_.limbs[parted_.limb[v]].length > 2 * radius_of(count);
-  }
-
-  // The middle of a ring or of what is bent lies outside the solid.  Parts it from its limbs, too.
-  bool is_hub(Growth& growth) {
-    stop_.did(4 * ends_.size());
-    const HubEllipsoid& hub = growth.hub;
-    growth.filled = hub.filled_by(growth.all, in_.lattice.spacing);
-    const bool is_filled = growth.filled >= growth.least_filled;
-    return (is_filled || growth.may_be_filled_alone) && !hub.is_bar() &&
-           is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * hub.centre) && holds_no_limb(growth) &&
-           parts_no_limb(growth) && is_thick(growth) && (is_filled || is_filled_alone(growth));
-  }
-
-  bool is_filled_alone(Growth& growth) const {
-    PlaceMoments left;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (result_.of[v] == growth.number) left.add(moments_[v]);
-    growth.filled = ellipsoid_of(left).filled_by(left, in_.lattice.spacing);
-    return growth.filled >= kFilledAlone;
-  }
-
-  // What takes the middle out of a limb leaves one in two pieces.
-  bool parts_no_limb(const Growth& growth) const {
-    const auto is_hubs = [&](std::uint32_t v) { return result_.of[v] == growth.number; };
-    return std::none_of(parted_.limbs.begin(), parted_.limbs.end(), [&](const PartedLimb& limb) {
-      return !is_hubs(limb.line.front()) && !is_hubs(limb.line.back()) &&
-             std::any_of(limb.line.begin(), limb.line.end(), is_hubs);
-    });
-  }
-
-  // Parts limbs at the ellipsoid, where noise moves the place where their slices begin to grow, and then by their sections.
-  // @return false where one that is long lies within, whole.
-  bool holds_no_limb(const Growth& growth) {
-    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      const bool is_outside = growth.hub.outside(in_.places[v]) >= 0;
-      if (is_outside && parted_.limb[v] != kNone && result_.of[v] == growth.number) result_.of[v] = kNone;
-      if (is_outside || result_.of[v] != kNone) continue;
-      if (is_long_end(v, growth.all.count)) return false;
-      result_.of[v] = growth.number;
-    }
-    for (PartedLimb& limb : parted_.limbs)
-      for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
-        if (result_.of[limb.line[0]] == growth.number) part_by_sections(limb.line, growth.number);
     return true;
   }
 
-  // With what its limbs leave it.  One that has much of limbs along which it did not grow is a part of these.
-  bool is_thick(const Growth& growth) const {
-    const auto is_hubs = [&](std::uint32_t v) { return result_.of[v] == growth.number; };
-    double count = 0;
-    for (std::uint32_t v = 0; v < ends_.size(); ++v)
-      if (is_hubs(v)) count += moments_[v].count;
-    std::array<double, 2> thickest{};
-    for (const PartedLimb& limb : parted_.limbs) {
-      if (!is_hubs(limb.line.front()) && !is_hubs(limb.line.back())) continue;
-      if (std::all_of(limb.line.begin(), limb.line.end(), is_hubs)) continue;
-      thickest[1] = std::max(thickest[1], std::min(limb.size, thickest[0]));
-      thickest[0] = std::max(thickest[0], limb.size);
+  // By what its limbs leave it.  The middle of a ring or of what is bent lies outside the solid.
+  bool is_hub(Candidate& found) {
+    if (!part_at_ellipsoid(found)) return false;
+    for (PartedLimb& limb : parted_.limbs)
+      for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
+        if (found.has[limb.line[0]] != 0) part_by_sections(limb.line, found.has);
+    const PlaceMoments left = moments_of(found.has);
+    if (!(left.count > 0) || left.count > kTaken * found.within.count || !is_thick(found, left.count))
+      return false;
+    const HubEllipsoid form = ellipsoid_of(left);
+    if (form.is_bar() || form.shortest() < kResolved * in_.lattice.spacing ||
+        !is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * form.centre))
+      return false;
+    const double filled = form.filled_by(left, in_.lattice.spacing);
+    found.worth = left.count * (1 - kLack * (1 / filled - 1));
+    return found.worth > 0;
+  }
+
+  // Noise moves the place where slices of limbs begin to grow, and their ellipsoid little.
+  // @return false where the end of a long limb lies within, or the middle of one alone.
+  bool part_at_ellipsoid(Candidate& found) {
+    stop_.did(8 * ends_.size());
+    const double thick = diameter_of(found.within.count);
+    for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+      if (found.form.outside(in_.places[v]) < 0)
+        found.has[v] = 1;
+      else if (parted_.limb[v] != kNone)
+        found.has[v] = 0;
+      if (found.has[v] != 0 && ends_[v] == 1 && tip_of_[v] > thick) return false;
     }
-    const double radius = radius_of(count);
-    return count < kTaken * growth.all.count && thickest[0] > 0 && radius > kThicker * thickest[0] &&
-           radius > kThick * thickest[1];
+    const auto has = [&](std::uint32_t v) { return found.has[v] != 0; };
+    return std::ranges::none_of(parted_.limbs, [&](const PartedLimb& limb) {
+      return !has(limb.line.front()) && !has(limb.line.back()) && std::ranges::any_of(limb.line, has);
+    });
   }
 
   // Of a line from a hub on, what has sections as beyond is a limb's, and where these grow suddenly it is the hub's, over as
   // much as the limb is thick.
-  void part_by_sections(const std::vector<std::uint32_t>& line, std::uint32_t number) {
+  void part_by_sections(const std::vector<std::uint32_t>& line, std::vector<char>& has) const {
     const std::size_t last =
         is_joint(line.back()) ? line.size() / 2 : line.size();  // beyond, a link leads to another
     std::size_t first = 0;
-    while (first < last && result_.of[line[first]] == number) ++first;
+    while (first < last && has[line[first]] != 0) ++first;
     std::vector<double> sections;
-    for (std::size_t n = first; n < last && result_.of[line[n]] == kNone; ++n)
-      sections.push_back(in_.section[line[n]]);
+    for (std::size_t n = first; n < last && has[line[n]] == 0; ++n) sections.push_back(in_.section[line[n]]);
     if (sections.empty()) return;
     const double own = median(std::move(sections)),
                  begin = length_of(in_.places, std::span(line).first(first + 1));
     const auto is_near = [&] {
       return length_of(in_.places, std::span(line).first(first + 1)) - begin < own;
     };
-    while (first < line.size() / 2 && result_.of[line[first]] == kNone && is_near() &&
+    while (first < line.size() / 2 && has[line[first]] == 0 && is_near() &&
            grows_at(in_.places, line, first, in_.section))
-      result_.of[line[first++]] = number;
-    while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) result_.of[line[--first]] = kNone;
+      has[line[first++]] = 1;
+    while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) has[line[--first]] = 0;
+  }
+
+  bool is_thick(const Candidate& found, double count) const {
+    std::vector<double> sizes;
+    const auto has = [&](std::uint32_t v) { return found.has[v] != 0; };
+    for (const PartedLimb& limb : parted_.limbs)
+      if ((has(limb.line.front()) || has(limb.line.back())) && !std::ranges::all_of(limb.line, has))
+        sizes.push_back(limb.size);
+    std::ranges::sort(sizes, std::greater<>());
+    const double radius = diameter_of(count) / 2;
+    return !sizes.empty() && radius > kThicker * sizes[0] && (sizes.size() < 2 || radius > kThick * sizes[1]);
+  }
+
+  // Of those with the same joint that of most worth.
+  LimbHubs chosen() {
+    std::ranges::stable_sort(found_, std::greater<>(), &Candidate::worth);
+    LimbHubs chosen{{}, std::vector<std::uint32_t>(ends_.size(), kNone)};
+    for (const Candidate& found : found_) {
+      stop_.did(2 * ends_.size());
+      const std::uint32_t joint = joint_of(found);
+      if (joint == kNone || chosen.of[joint] != kNone) continue;
+      for (std::uint32_t v = 0; v < ends_.size(); ++v)
+        if (found.has[v] != 0 && chosen.of[v] == kNone)
+          chosen.of[v] = static_cast<std::uint32_t>(chosen.hubs.size());
+      chosen.hubs.push_back({found.form, joint});
+    }
+    return chosen;
+  }
+
+  // The one nearest to its middle.
+  std::uint32_t joint_of(const Candidate& found) const {
+    std::uint32_t joint = kNone;
+    const auto off = [&](std::uint32_t v) { return norm(in_.places[v] - found.form.centre); };
+    for (std::uint32_t v = 0; v < ends_.size(); ++v)
+      if (found.has[v] != 0 && is_joint(v) && (joint == kNone || off(v) < off(joint))) joint = v;
+    return joint;
   }
 
   const LimbHubsInput& in_;
   std::vector<std::uint32_t> ends_;    // of lines, per vertex
-  std::vector<char> is_tried_;         // per vertex: held by what has grown, and was no hub
-  std::vector<char> is_widened_;       // per hub: it has grown, or not, from what lies about it
+  std::vector<double> tip_of_;         // per vertex: length of the limb that it is in the free half of, or 0
   std::vector<PlaceMoments> moments_;  // per vertex: of its points
   PartedLines parted_;
-  std::vector<char> runs_out_;  // per limb: a hub would grow along it to its end
   StopCheck stop_;
-  std::vector<double> found_filled_;  // per hub
-  LimbHubs result_;
+  std::vector<Candidate> found_;
 };
 
 }  // namespace

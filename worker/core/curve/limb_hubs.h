@@ -34,18 +34,19 @@ struct LimbHubsInput {
   ExecutionContext* context = nullptr;     ///< asked whether to stop
 };
 
-/// From what no limb has (see parted_lines()), as far as it hangs together in the solid, with a joint, or, where that is nothing,
-/// from what lies about the joint, a hub grows: as large as
-/// an ellipsoid with its moments, it takes what is nearest to lines in that, too, and so on, until it holds no more, but not
-/// along a limb that is longer than it is thick, to its free end; those that both hold the place between their middles are
-/// one, if they fill one ellipsoid about as well.  Then one grows from what lies in twice the ellipsoid of that, or of what no
-/// limb has, and is the hub, if it is one.
-/// It is a hub where a ball as large is 1.4 times as thick as the thickest limb there and 1.55 times as the others, unless it
-/// fills less than 0.66 of the ellipsoid (0.74 in the second growth, and beside hubs that it might have joined), and, of one that
-/// is the first to grow from its body, what its limbs leave of it less than 0.85 of its own, a network,
-/// is 2.25 times as long as wide, a limb, has its middle outside the solid, a ring, or holds the middle of a limb and neither
-/// end.  Its limbs begin where they leave the ellipsoid, or within, where their sections are as beyond, or beyond, where
-/// these suddenly grow.
+/// A hub is what lies in its own ellipsoid, that with its moments (see HubEllipsoid::of()), by the middle of what is nearest
+/// to each vertex.  From every body of what no limb has (see parted_lines()), as far as it touches, and from twice its
+/// ellipsoid, this is taken anew until it stays: once all, and once without the outer half of limbs that end free and are
+/// longer than it is thick, as a palm would take its forearm.  Its limbs begin where they leave the ellipsoid, or within,
+/// where their sections are as beyond, or beyond, where these suddenly grow.
+///
+/// It is a hub if what they leave
+/// - is 1.4 times as thick, as a ball, as the thickest limb and 1.55 times as the others,
+/// - is less than 1.2 times what lay in the ellipsoid,
+/// - fills more than two thirds of an ellipsoid, no network, is not 2.25 times as long as wide, a limb, has its middle in the
+///   solid, no ring, and is three spacings thick,
+/// - and there is in it neither the end of a limb that is longer than it is thick nor the middle of one and neither end.
+/// Of those with one joint in their middle it is the one that has most, less twice what its ellipsoid lacks.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core

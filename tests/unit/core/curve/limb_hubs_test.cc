@@ -339,5 +339,44 @@ TEST(LimbHubs, PartALinkByTheHalfThatIsNear) {
     }
 }
 
+// A torso, and with the head before it, which fills less of an ellipsoid.
+TEST(LimbHubs, AreWhatFillsItsEllipsoidBest) {
+  Cube beast(joined(
+      joined(make_box(6, 6, 4), moved(make_box(1.5, 1.2, 1.2), {6, 2.4, 1.4})),
+      joined(moved(make_box(4, 4, 3), {7.5, 1, 0.5}), moved(make_box(6, 0.6, 0.6), {11.5, 2.7, 1.7}))));
+  beast.middle = {3, 3, 2};
+  const std::uint32_t joint = beast.add(beast.middle, 2);
+  beast.radius.assign(1, 2.5);
+  const std::uint32_t trunk = beast.go(joint, {0.1, 0, 0}, 143, 0.8);
+  beast.radius.resize(beast.places.size(), 0.8);
+  beast.go_out(joint, {{-0.1, 0, 0}, {0, 0.1, 0}, {0, -0.1, 0}}, 2.2, 2, 3.5);
+  beast.open_until(4);
+  for (std::uint32_t v = joint; v <= trunk; ++v) {
+    const double x = beast.places[v].x;
+    beast.section[v] = x < 6 ? 2.5 : x < 7.5 ? 0.6 : x < 11.5 ? 1.9 : 0.3;
+  }
+  const LimbHubs found = beast.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_LT(norm(found.hubs[0].centre - beast.middle), 1);
+}
+
+// A ray is all wings: most of what lies in a hub there is their tips'.
+TEST(LimbHubs, HaveLittleOfTips) {
+  Cube ray({14, 14, 2});
+  ray.go_out(ray.add(ray.middle, 2), kCross, 1, 0);
+  ray.open_until(5);
+  EXPECT_TRUE(ray.found().hubs.empty());
+}
+
+// The shape of less is chance.
+TEST(LimbHubs, AreThreeSpacingsThick) {
+  for (const double thick : {0.4, 0.8}) {
+    Cube plate({4, 4, thick});
+    plate.go_out(plate.add(plate.middle, 2), kCross, 0.5, 0);
+    plate.open_until(2.84);
+    EXPECT_EQ(plate.found().hubs.size(), thick > 3 * 0.2 ? 1U : 0U) << thick;
+  }
+}
+
 }  // namespace
 }  // namespace affskel::core
