@@ -1,6 +1,7 @@
 #include "core/curve/line_ends.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/base/unit.h"
 
@@ -16,7 +17,8 @@ constexpr double kCorner = 2, kNearCorner = 1.5, kInner = 0.6;
 constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
 constexpr double kAhead =
     0.4;  // cosine: less where a limb turns, as a vessel that leaves the wall of a heart
-constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
+constexpr double kReaches = 0.65;  // of what the line did: into a corner of a bar most of that
+constexpr double kWider = 1.1;     // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
 // Of a tube as long, what an end has: up to the one it is round, from the other on flat.
@@ -27,15 +29,11 @@ class DrawEnd {
   DrawEnd(const LineEndInput& input, std::vector<Vec3>& places) : in_(input), places_(places) {}
 
   void run() {
-    const auto [first, along] = start();
-    if (along == Vec3{}) return;
-    const Vec3 from = at(first);
-    double way = to_centre(from, along);
-    way += to_face(from + way * along, along);
-    const std::size_t count = std::max<std::size_t>(first, 1);
-    for (std::size_t n = 0; n < count; ++n)
-      places_[in_.line[n]] =
-          from + (way * static_cast<double>(count - n) / static_cast<double>(count)) * along;
+    const std::size_t first =
+        first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
+    const std::optional<Start> before_corner = start_before_corner(first);
+    if (before_corner && draw(*before_corner, true)) return;
+    draw({first, outward_at(first)}, false);
   }
 
  private:
@@ -56,32 +54,50 @@ class DrawEnd {
     return n;
   }
 
+  // From where on a line is in the middle, and its direction there.
   struct Start {
     std::size_t first;
     Vec3 along;
   };
 
-  // From where on a line is in the middle, and its direction there.
-  Start start() const {
-    const std::size_t first =
-        first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
+  // Straight on from there.
+  // @param reaches whether the ball about its end must reach about as far as the line did: before the tip of a limb that turns
+  // it would come to the wall.
+  // @return whether it is drawn.
+  bool draw(const Start& start, bool reaches) {
+    const auto& [first, along] = start;
+    if (along == Vec3{}) return false;
+    const Vec3 from = at(first);
+    double way = to_centre(from, along);
+    if (reaches && way + in_.surface.distance.nearest(from + way * along) < kReaches * norm(at(0) - from))
+      return false;
+    way += to_face(from + way * along, along);
+    const std::size_t count = std::max<std::size_t>(first, 1);
+    for (std::size_t n = 0; n < count; ++n)
+      places_[in_.line[n]] =
+          from + (way * static_cast<double>(count - n) / static_cast<double>(count)) * along;
+    return true;
+  }
+
+  // Where a line that leads into a corner leaves the middle.
+  // @param first vertices, which may be of the end.
+  std::optional<Start> start_before_corner(std::size_t first) const {
     const std::size_t straight = in_.line.size() - std::min(in_.in_joint + 1, in_.line.size());
     const std::size_t inner = first_away([&](std::size_t n, double way) {
       const double radius = section(at(n), outward_at(n)).radius;
       return n < first || way < kNearCorner * radius ||
              (way < kCorner * radius && static_cast<double>(n) < kInner * static_cast<double>(straight));
     });
-    const Start round{first, outward_at(first)};
-    if (inner >= straight) return round;
+    if (inner >= straight) return std::nullopt;
     const double stretch =
         std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight) - at(inner)));
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
-    if (dot(along, unit(at(0) - at(first))) > kTurned) return round;
-    if (dot(along, unit(at(0) - at(inner))) < kAhead) return round;
+    if (dot(along, unit(at(0) - at(first))) > kTurned) return std::nullopt;
+    if (dot(along, unit(at(0) - at(inner))) < kAhead) return std::nullopt;
     const double widest = kWider * section(at(inner), along).radius;
     for (std::size_t n = 0; n < inner; ++n)
-      if (section(at(n), along).radius > widest) return round;
-    return {inner, along};
+      if (section(at(n), along).radius > widest) return std::nullopt;
+    return Start{inner, along};
   }
 
   double to_centre(const Vec3& from, const Vec3& along) const {

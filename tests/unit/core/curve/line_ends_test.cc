@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -56,6 +57,27 @@ TEST(LineEnds, AShortLineThatTurnsToACornerGoesStraightOn) {
 TEST(LineEnds, OfARoundLimbIsTheCentreOfItsEnd) {
   const Mesh tube = tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 10}, 1}}, 0.15);
   EXPECT_NEAR(drawn(tube, 10, {0, 0, 10.3})[0].z, 10, kSpacing);
+}
+
+// Of 2.5 to 4 radii beyond the corner: the line is in the middle to its end, and straight on from before the corner is the
+// wall.
+TEST(LineEnds, OfALimbThatTurnsIsTheCentreOfItsEnd) {
+  for (const double degrees : {60., 90., 110.})
+    for (const double tail : {2.5, 3., 3.5, 4.}) {
+      const double turn = degrees * std::numbers::pi / 180;
+      const Vec3 corner{0, 0, 6}, way{std::sin(turn), 0, std::cos(turn)}, end = corner + tail * way;
+      const Mesh limb = tube_mesh(std::vector<Tube>{{{0, 0, 0}, corner, 1}, {corner, end, 1}}, 0.15);
+      std::vector<Vec3> places;
+      for (double away = 0; away < tail; away += kSpacing) places.push_back(end - away * way);
+      for (double z = corner.z; z > 0; z -= kSpacing) places.push_back({0, 0, z});
+      for (int pass = 0; pass < 60; ++pass)  // round the corner, as lines do
+        for (std::size_t n = 1; n + 1 < places.size(); ++n)
+          places[n] = 0.25 * places[n - 1] + 0.5 * places[n] + 0.25 * places[n + 1];
+      std::vector<std::uint32_t> line(places.size());
+      std::iota(line.begin(), line.end(), 0U);
+      draw_end({LimbSurface(limb), kSpacing, line, 0, end + way}, places);
+      EXPECT_LT(norm(places[0] - end), 0.25) << degrees << ' ' << tail;
+    }
 }
 
 // A head on a neck: it is no bar.
