@@ -33,7 +33,7 @@ class CurveOfField {
   v1::SkeletonQuality quality_of(const core::CurveSkeleton& curve, double threshold,
                                  Compared compared = Compared::kToNext) const;
 
-  /// As SURFACE gives it, with quality and parts.
+  /// As SURFACE gives it where it is compared, with quality and parts.
   v1::TriangleMesh message_of(const core::CurveSkeleton& curve, double threshold,
                               Compared compared = Compared::kToNext) const;
 

@@ -14,6 +14,12 @@ struct HubEllipsoid {
   /// About how far a place is outside; within less than 0.
   double outside(const Vec3& at) const;
 
+  /// Whether a place lies in it, outside() below 0.
+  bool holds(const Vec3& at) const {
+    const Vec3 way = at - centre;
+    return dot(way, form * way) < 1;
+  }
+
   /// Of sample points, each a cell of the lattice: with their moments, and a tenth larger, since what lies just outside is no
   /// limb's.
   /// @param spacing of the lattice.

@@ -21,7 +21,7 @@ constexpr double kTaken = 1.2;        // times what lies in its ellipsoid, with 
 constexpr double kOfTube = 1.1;       // times a limb's own sections: where they are larger, a hub begins
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
 constexpr double kScales[] = {1, 2};  // of the ellipsoid of a body, to begin with
-constexpr int kSteps = 100;           // bodies settle in 1 to 40
+constexpr int kSteps = 100;           // bodies settle in 1 to 54
 
 class FindHubs {
  public:
@@ -35,6 +35,7 @@ class FindHubs {
   LimbHubs run() {
     each_point([&](const Vec3& at, std::uint32_t v) { moments_[v].add({1, at, outer(at, at)}); });
     parted_ = parted_lines({in_.places, in_.lines, in_.radius, moments_, in_.lattice.spacing});
+    for (const PlaceMoments& all : moments_) middle_.push_back(all.count > 0 ? all.centre() : Vec3{});
     find_tips();
     join_what_touches();
     for (std::uint32_t v = 0; v < ends_.size(); ++v)
@@ -92,7 +93,7 @@ class FindHubs {
     });
   }
 
-  // With what lies within half of the balls of its joints: at some spacings the arms of a starfish have all that lies about
+  // With what lies within half of the radii of its joints: at some spacings the arms of a starfish have all that lies about
   // theirs.
   void start_from(std::uint32_t body) {
     std::vector<char> has(ends_.size(), 0);
@@ -109,33 +110,42 @@ class FindHubs {
         has[v] = 1;
     const PlaceMoments all = moments_of(has);
     if (!(all.count > 0)) return;
-    for (const double scale : kScales)
-      for (const bool with_tips : {true, false}) {
-        Candidate found{ellipsoid_of(all), all};
-        found.form.form = (1 / (scale * scale)) * found.form.form;
-        if (settle(found, with_tips) && is_hub(found)) found_.push_back(std::move(found));
-      }
+    for (const double scale : kScales) {
+      Candidate begin{ellipsoid_of(all), all};
+      begin.form.form = (1 / (scale * scale)) * begin.form.form;
+      Candidate all_in = begin;
+      left_out_ = false;
+      const bool stays = settle(begin, false);
+      if (left_out_) add_if(settle(all_in, true), all_in);  // else that is the same
+      add_if(stays, begin);
+    }
+  }
+
+  void add_if(bool stays, Candidate& found) {
+    if (stays && is_hub(found)) found_.push_back(std::move(found));
   }
 
   // Takes what lies in the ellipsoid, and so on, until that stays.  Of a vertex the middle of what is nearest to it tells:
   // lines may run along the rim of a head.
   // @param with_tips or without those of limbs longer than it is thick, along which it might run.
-  // @return false where it comes to nothing.
+  // @return false where it comes to nothing, or does not stay.
   bool settle(Candidate& found, bool with_tips) {
     for (int step = 0; step < kSteps; ++step) {
       stop_.did(8 * ends_.size());
       const double thick = diameter_of(found.within.count);
       std::vector<char> has(ends_.size());
-      for (std::uint32_t v = 0; v < ends_.size(); ++v)
-        has[v] = moments_[v].count > 0 && (with_tips || tip_of_[v] <= thick) &&
-                 found.form.outside(moments_[v].centre()) < 0;
+      for (std::uint32_t v = 0; v < ends_.size(); ++v) {
+        if (!(moments_[v].count > 0) || !found.form.holds(middle_[v])) continue;
+        has[v] = with_tips || tip_of_[v] <= thick;
+        left_out_ = left_out_ || has[v] == 0;
+      }
       if (has == found.has) return true;
       found.within = moments_of(has);
       found.has = std::move(has);
       if (!(found.within.count > 0)) return false;
       found.form = ellipsoid_of(found.within);
     }
-    return true;
+    return false;
   }
 
   // By what its limbs leave it.  The middle of a ring or of what is bent lies outside the solid.
@@ -162,7 +172,7 @@ class FindHubs {
     stop_.did(8 * ends_.size());
     const double thick = diameter_of(found.within.count);
     for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-      if (found.form.outside(in_.places[v]) < 0)
+      if (found.form.holds(in_.places[v]))
         found.has[v] = 1;
       else if (parted_.limb[v] != kNone)
         found.has[v] = 0;
@@ -206,14 +216,17 @@ class FindHubs {
     return !sizes.empty() && radius > kThicker * sizes[0] && (sizes.size() < 2 || radius > kThick * sizes[1]);
   }
 
-  // Of those with the same joint that of most worth.
+  // Of those in one place, where the middle of one lies in the other, that of most worth.
   LimbHubs chosen() {
     std::ranges::stable_sort(found_, std::greater<>(), &Candidate::worth);
     LimbHubs chosen{{}, std::vector<std::uint32_t>(ends_.size(), kNone)};
     for (const Candidate& found : found_) {
       stop_.did(2 * ends_.size());
       const std::uint32_t joint = joint_of(found);
-      if (joint == kNone || chosen.of[joint] != kNone) continue;
+      const bool is_there = std::ranges::any_of(chosen.hubs, [&](const LimbHub& hub) {
+        return hub.holds(found.form.centre) || found.form.holds(hub.centre);
+      });
+      if (is_there || joint == kNone || chosen.of[joint] != kNone) continue;
       for (std::uint32_t v = 0; v < ends_.size(); ++v)
         if (found.has[v] != 0 && chosen.of[v] == kNone)
           chosen.of[v] = static_cast<std::uint32_t>(chosen.hubs.size());
@@ -235,9 +248,11 @@ class FindHubs {
   std::vector<std::uint32_t> ends_;    // of lines, per vertex
   std::vector<double> tip_of_;         // per vertex: length of the limb that it is in the free half of, or 0
   std::vector<PlaceMoments> moments_;  // per vertex: of its points
+  std::vector<Vec3> middle_;           // of these
   PartedLines parted_;
   StopCheck stop_;
   std::vector<Candidate> found_;
+  bool left_out_ = false;  // tips, of what settles
 };
 
 }  // namespace

@@ -91,6 +91,7 @@ double LimbSections::height_above(std::size_t ray, const Turn& p) const {
 std::uint32_t LimbSections::rays_left_of(const Turn& p) const {
   const bool upper = p[1] >= 0;
   const auto is_before = [&](std::size_t n) -> std::size_t { return (height_above(n, p) < 0) != upper; };
+  static_assert(std::has_single_bit(kRays));
   std::size_t before = 0;
   for (std::size_t step = kRays / 4; step > 0; step /= 2) before += step * is_before(before + step - 1);
   before += is_before(before);

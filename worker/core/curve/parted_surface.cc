@@ -109,6 +109,7 @@ class CutTriangles {
   // @return whether there is any edge to cut.
   bool mark() {
     middle_.clear();
+    is_cut_.assign(mesh_.points.size(), 0);
     if (std::find(mixed_.begin(), mixed_.end(), 1) == mixed_.end()) return false;
     const Edges edges(mesh_.points.size(), mesh_.triangles);
     std::set<std::pair<std::size_t, std::uint32_t>> left;  // passes and triangles
@@ -133,7 +134,15 @@ class CutTriangles {
         middle_.try_emplace(ascending(t[0], t[1]), static_cast<std::uint32_t>(mesh_.points.size()));
     if (!is_new) return false;
     mesh_.points.push_back(0.5 * (place(found->first[0]) + place(found->first[1])));
+    is_cut_[t[0]] = is_cut_[t[1]] = 1;
     return true;
+  }
+
+  bool has_cut(const Triangle& t) const {
+    const auto is_cut = [&](std::size_t a, std::size_t b) {
+      return is_cut_[t[a]] != 0 && is_cut_[t[b]] != 0 && middle_.contains(ascending(t[a], t[b]));
+    };
+    return is_cut(0, 1) || is_cut(1, 2) || is_cut(2, 0);
   }
 
   // The middle of an edge that is cut, else kNone.
@@ -149,12 +158,12 @@ class CutTriangles {
     std::swap(whole, mesh_.triangles);
     std::swap(mixed_of, mixed_);
     for (std::size_t t = 0; t < whole.size(); ++t) {
-      const auto [a, b, c] = by_longest(whole[t]);
-      const std::uint32_t m = middle(a, b);
-      if (m == kNone) {
+      if (!has_cut(whole[t])) {
         add(whole[t], mixed_of[t] != 0);
         continue;
       }
+      const auto [a, b, c] = by_longest(whole[t]);
+      const std::uint32_t m = middle(a, b);
       halve({b, c, m}, mixed_of[t] != 0);
       halve({c, a, m}, mixed_of[t] != 0);
     }
@@ -185,6 +194,7 @@ class CutTriangles {
   Mesh mesh_;
   std::vector<char> mixed_;                  // per triangle, whether it is longer than the spacing and mixed
   std::map<Segment, std::uint32_t> middle_;  // of the edges that this round cuts
+  std::vector<char> is_cut_;                 // per vertex before this round: whether such an edge ends there
 };
 
 }  // namespace

@@ -17,8 +17,8 @@ struct WayQuery {
   bool meets(const Box& box) const;
 };
 
-/// A balanced tree over boxes for overlap queries (self-intersection, rays, membership) and for what is nearest.  Immutable
-/// after construction; queries from several threads are safe.
+/// A balanced tree over boxes for overlap queries: self-intersection, rays, membership.  Immutable after
+/// construction; queries from several threads are safe.
 class BoxTree {
  public:
   BoxTree() = default;
@@ -43,16 +43,6 @@ class BoxTree {
         [&](std::uint32_t item) {
           if (query.meets(boxes_[item])) visit(item);
         });
-  }
-
-  /// Calls visit(index) for every box that is nearer to a place than `least`, a square, which what is visited may lower; what
-  /// is near comes first.
-  template <class Visit>
-  void visit_nearest(const Vec3& place, const double& least, Visit visit) const {
-    const auto distance = [&](const Box& box) { return box.squared_distance(place); };
-    tree_.visit_nearest(distance, least, [&](std::uint32_t item) {
-      if (distance(boxes_[item]) < least) visit(item);
-    });
   }
 
  private:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <utility>
+
+#include "core/mesh/unused_points.h"
 
 namespace affskel::core {
 namespace {
@@ -12,6 +14,20 @@ Vec3 nearest_on_side(const Vec3& place, const Vec3& a, const Vec3& b) {
   const double length = dot(side, side);
   const double t = length > 0 ? std::clamp(dot(place - a, side) / length, 0.0, 1.0) : 0;
   return a + t * side;
+}
+
+// The boxes that are not farther away than the nearest triangle so far.
+struct Nearer {
+  const Vec3& place;
+  double& least;  // squared
+
+  bool meets(const Box& box) const { return box.squared_distance(place) <= least; }
+};
+
+// The points that triangles use.
+std::vector<Vec3> corners_of(Mesh mesh) {
+  drop_unused_points(mesh);
+  return std::move(mesh.points);
 }
 
 }  // namespace
@@ -30,18 +46,22 @@ Vec3 nearest_place(const Vec3& place, const Vec3& a, const Vec3& b, const Vec3& 
 }
 
 DistanceToMesh::DistanceToMesh(const Mesh& mesh, unsigned threads)
-    : mesh_(mesh), tree_(boxes_of(mesh), threads) {}
+    : mesh_(mesh), tree_(boxes_of(mesh), threads), corners_(corners_of(mesh)), corner_index_(corners_) {}
 
 double DistanceToMesh::nearest(const Vec3& place) const {
   return norm(nearest_place(place) - place);
 }
 
 Vec3 DistanceToMesh::nearest_place(const Vec3& place) const {
-  double least = std::numeric_limits<double>::infinity();
-  Vec3 found;
-  tree_.visit_nearest(place, least, [&](std::uint32_t t) {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    const Vec3 here = core::nearest_place(place, mesh_.points[a], mesh_.points[b], mesh_.points[c]);
+  const PointIndex::Found corner = corner_index_.find(place);
+  double least =
+      corner.distance * corner.distance * (1 + 1e-12);  // for what rounding does to the boxes' distances
+  const auto at = [&](std::uint32_t triangle, std::size_t k) {
+    return mesh_.points[mesh_.triangles[triangle][k]];
+  };
+  Vec3 found = corners_[corner.number];
+  tree_.visit(Nearer{place, least}, [&](std::uint32_t t) {
+    const Vec3 here = core::nearest_place(place, at(t, 0), at(t, 1), at(t, 2));
     const double distance = squared_distance(here, place);
     if (distance >= least) return;
     least = distance;

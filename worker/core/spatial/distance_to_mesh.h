@@ -1,8 +1,11 @@
 #pragma once
 
+#include <vector>
+
 #include "core/base/vec3.h"
 #include "core/mesh/mesh.h"
 #include "core/spatial/box_tree.h"
+#include "core/spatial/point_index.h"
 
 namespace affskel::core {
 
@@ -23,6 +26,8 @@ class DistanceToMesh {
  private:
   const Mesh& mesh_;
   BoxTree tree_;
+  const std::vector<Vec3> corners_;  // of triangles, each once
+  const PointIndex corner_index_;    // what is farther away than the nearest corner need not be looked at
 };
 
 /// The point of a triangle, its inside and its sides, that is nearest to a place (Ericson, Real-Time Collision

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/collapse/lattice_solids.h"
+#include "core/shapes/shapes.h"
 #include "core/test_solids.h"
 
 namespace affskel::core {
@@ -56,6 +58,23 @@ TEST(CellSet, IsClosedWithTheBoundariesOfItsCells) {
   });
   EXPECT_EQ(count, 27U);
   EXPECT_EQ(bare, 1U) << "the cube alone bounds nothing";
+}
+
+TEST(WeakestCell, IsNearestToTheSurfaceOrTheFirst) {
+  const LatticeSolid box(make_box(2, 1, 1), 0.4);
+  const DualComplex complex(box.lattice);
+  ASSERT_GE(complex.cubes(), 5U);
+  std::vector<float> radius(complex.cubes(), 3);
+  radius[1] = radius[3] = radius[4] = 1;
+  radius[2] = 2;
+  const auto middle = [](std::uint32_t cube) { return DualComplex::name(cube, DualComplex::kCube); };
+  for (const auto& [cubes, weakest] : {std::pair(std::vector<std::uint32_t>{0, 2}, 2U),
+                                       std::pair(std::vector<std::uint32_t>{0, 4, 1, 3, 2}, 1U)}) {
+    WeakestCell found;
+    EXPECT_FALSE(found.cell.has_value());
+    for (const std::uint32_t cube : cubes) found.look_at(complex, radius, middle(cube));
+    EXPECT_EQ(found.cell, middle(weakest));
+  }
 }
 
 }  // namespace

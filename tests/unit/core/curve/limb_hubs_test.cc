@@ -125,7 +125,7 @@ TEST(LimbHubs, HaveLoopsThatAreShorterThanThick) {
 }
 
 // Where limbs grow slowly towards it; a sample point lies half a spacing from the middle, along each axis.
-TEST(LimbHubs, GrowWhetherOrNotASamplePointIsNearestToTheirJoint) {
+TEST(LimbHubs, AreThereWhetherOrNotASamplePointIsNearestToTheirJoint) {
   for (const double aside : {0., 0.1}) {
     Cube cube;
     const std::uint32_t joint = cube.add(cube.middle + Vec3{aside, aside, aside}, 2);
@@ -171,7 +171,7 @@ TEST(LimbHubs, AreSeatsWithArms) {
 }
 
 // The lines of a palm meet at its edge, and what is nearest to their joint is little of it.
-TEST(LimbHubs, GrowFromWhatLiesAboutABody) {
+TEST(LimbHubs, BeginWithWhatLiesAboutABody) {
   Cube palm({8, 8, 2});
   const std::uint32_t joint = palm.add(palm.middle + Vec3{-1.5, 0, 0}, 2);
   palm.go_out(joint, {{0.1, 0, 0}, {0.07, 0.07, 0}, {0.07, -0.07, 0}, {-0.1, 0, 0}}, 1.5, 1, 0.6);
@@ -181,7 +181,7 @@ TEST(LimbHubs, GrowFromWhatLiesAboutABody) {
 }
 
 // Under an octopus's head lines run from arm to arm: what is nearest to them is the head above.
-TEST(LimbHubs, GrowByWhatIsNearestToLinesAlongTheirRim) {
+TEST(LimbHubs, HaveWhatIsNearestToLinesAlongTheirRim) {
   Cube head;
   const std::uint32_t joint = head.add(head.middle - Vec3{0, 0, 1.95}, 2);
   head.go_out(joint, kCross, 1.5, 1, 0.6);
@@ -260,8 +260,8 @@ TEST(LimbHubs, HoldNoMiddleOfALimb) {
   }
 }
 
-// A palm, 8 wide and 2 thick, with four fingers, and a forearm as thick as it, along which its ellipsoid would grow on and on.
-TEST(LimbHubs, DoNotGrowAlongALimb) {
+// A palm, 8 wide and 2 thick, with four fingers, and a forearm as thick as it, along which its ellipsoid would go on and on.
+TEST(LimbHubs, DoNotRunAlongALimb) {
   Cube palm(joined(moved(make_box(8, 8, 2), {0, 8, 0}), moved(make_box(4.6, 8.5, 2), {1.7, 0, 0})));
   const Vec3 middle{4, 12, 1};
   const std::uint32_t joint = palm.add(middle, 2);
@@ -275,9 +275,9 @@ TEST(LimbHubs, DoNotGrowAlongALimb) {
   EXPECT_LT(norm(found.hubs[0].centre - middle), 2);
 }
 
-// A body twice as long as wide, with a joint in either half, and a line between them that leads round: from each joint half
-// of it is found first.
-TEST(LimbHubs, AreOneWhereTheyLieInEachOther) {
+// A body twice as long as wide, with a joint in either half, and a line between them that leads round: from twice the
+// ellipsoid of either half it is one.
+TEST(LimbHubs, AreOneOfTwoHalves) {
   Cube body({10, 5, 5});
   const std::uint32_t one = body.add(body.middle + Vec3{-2.5, 0, 0}, 2);
   const std::uint32_t other = body.add(body.middle + Vec3{2.5, 0, 0}, 2);
@@ -304,7 +304,7 @@ TEST(LimbHubs, EndWhereTheirLimbsHaveSectionsAsBeyond) {
 }
 
 // Noise makes forks in thin limbs to which no sample point is nearest.
-TEST(LimbHubs, DoNotGrowFromNothing) {
+TEST(LimbHubs, AreNotOfNothing) {
   Cube cube({4, 4, 3});
   const std::uint32_t joint = cube.add(cube.middle, 2);
   cube.go_out(joint, kCross, 2.2, 2, 3.5);

@@ -59,5 +59,16 @@ TEST(PolylinesTest, EverySegmentIsInOneLineOnce) {
   }
 }
 
+TEST(PolylinesTest, APlaceAlongALineIsCountedFromEitherEnd) {
+  const std::vector<Vec3> places{{0, 0, 0}, {2, 0, 0}, {2, 0, 0}, {2, 3, 0}};
+  const std::vector<std::uint32_t> line{0, 1, 2, 3};
+  EXPECT_EQ(place_along(places, line, false, 0), (Vec3{0, 0, 0}));
+  EXPECT_EQ(place_along(places, line, false, 1), (Vec3{1, 0, 0}));
+  EXPECT_EQ(place_along(places, line, false, 3), (Vec3{2, 1, 0}));
+  EXPECT_EQ(place_along(places, line, true, 1), (Vec3{2, 2, 0}));
+  EXPECT_EQ(place_along(places, line, true, 4), (Vec3{1, 0, 0}));
+  EXPECT_EQ(place_along(places, line, false, 9), (Vec3{2, 3, 0})) << "no longer than the line";
+}
+
 }  // namespace
 }  // namespace affskel::core

@@ -37,7 +37,8 @@ TEST(DeriveParts, OfATorusIsOne) {
   }
   EXPECT_EQ(solid.point_part_size(), static_cast<int>(prepared.lattice().points));
   EXPECT_EQ(parts_of(prepared, field, 0, 3).SerializeAsString(), solid.SerializeAsString());
-  EXPECT_FALSE(solid.curve().quality().has_hausdorff_there());  // what it is compared to takes time, and nobody asks
+  EXPECT_FALSE(
+      solid.curve().quality().has_hausdorff_there());  // what it is compared to takes time, and nobody asks
   double greatest = 0;
   for (const core::FieldValue& value : unpack_field(field, prepared.lattice().points))
     greatest = std::max(greatest, value.erosion);
