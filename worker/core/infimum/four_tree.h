@@ -16,6 +16,17 @@ using Four = float __attribute__((vector_size(16)));
 /// Whether, of each of four: -1 or 0.
 using FourAnswers = int __attribute__((vector_size(16)));
 
+/// The same as bits, the first one lowest.
+inline unsigned bits_of(const FourAnswers& answers) {
+#ifdef __SSE__
+  return static_cast<unsigned>(__builtin_ia32_movmskps((Four)answers));  // one instruction for fourteen
+#else
+  unsigned bits = 0;
+  for (unsigned i = 0; i < 4; ++i) bits |= (answers[i] != 0 ? 1U : 0U) << i;
+  return bits;
+#endif
+}
+
 /// Boxes of four items side by side: centres and half sides, by coordinate.  In single precision; sides are
 /// rounded up.
 struct FourBoxes {
@@ -45,7 +56,7 @@ class PlaneHeights {
   /// How far the segment between its lowest and highest corner reaches from its middle at most.
   Four reach_of_segment(const FourBoxes& boxes) const {
     const Four reach = boxes.half[0] * d_[0] + boxes.half[1] * d_[1] + boxes.half[2] * d_[2];
-    return (reach < 0 ? -reach : reach) + kSlack;
+    return size_of(reach) + kSlack;
   }
   /// How far the box reaches from its middle at most.
   Four reach(const FourBoxes& boxes) const {
@@ -57,7 +68,7 @@ class PlaneHeights {
     Four sum = boxes.half[0] + boxes.half[1] + boxes.half[2] + kSlack;
     for (std::size_t k = 0; k < 3; ++k) {
       const Four away = boxes.centre[k] - static_cast<float>(x[k]);
-      sum += away < 0 ? -away : away;
+      sum += size_of(away);
     }
     return sum;
   }
@@ -67,7 +78,7 @@ class PlaneHeights {
     Four sum = {0, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
       const Four away = boxes.centre[k] - static_cast<float>(x[k]);
-      const Four most = (away < 0 ? -away : away) + boxes.half[k] + kSlack;
+      const Four most = size_of(away) + boxes.half[k] + kSlack;
       sum += most > 0 ? most * most : Four{};
     }
     return sum;
@@ -78,16 +89,16 @@ class PlaneHeights {
     Four most = {0, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
       const Four away = boxes.centre[k] - static_cast<float>(x[k]);
-      const Four outside = (away < 0 ? -away : away) - boxes.half[k] - kSlack;
+      const Four outside = size_of(away) - boxes.half[k] - kSlack;
       most = outside > most ? outside : most;
     }
     return most;
   }
 
  private:
-  static FourAnswers is_within(const Four& middle, const Four& reach) {
-    return (middle <= reach) & (middle >= -reach);
-  }
+  // Without their signs.
+  static Four size_of(const Four& four) { return (Four)((FourAnswers)four & 0x7FFFFFFF); }
+  static FourAnswers is_within(const Four& middle, const Four& reach) { return size_of(middle) <= reach; }
 
   std::array<float, 3> d_, size_;
   float offset_;
@@ -122,6 +133,19 @@ class FourTree {
   }
 
  private:
+  // Which of four are met, those first.
+  struct Met {
+    std::array<std::uint8_t, 4> place;
+    std::uint8_t count;
+  };
+  static constexpr std::array<Met, 16> kMet = [] {
+    std::array<Met, 16> all{};
+    for (unsigned bits = 0; bits < 16; ++bits)
+      for (std::uint8_t place = 0; place < 4; ++place)
+        if ((bits >> place & 1U) != 0) all[bits].place[all[bits].count++] = place;
+    return all;
+  }();
+
   struct Node {
     FourBoxes boxes;
     std::array<std::uint32_t, 4> child{};  // of the next level, or items; where there are fewer, none is met
@@ -132,15 +156,17 @@ class FourTree {
   static std::size_t descend(const std::vector<Node>& level, std::size_t count, Meets meets, Lists& lists) {
     auto& [from, to] = lists;
     if (to.size() < 4 * count) to.resize(4 * count);
-    std::size_t met_count = 0;
+    std::uint32_t* end = to.data();
     for (std::size_t n = 0; n < count; ++n) {
       const Node& node = level[from[n]];
-      const auto met = meets(node.boxes);
-      for (std::uint32_t i = 0; i < 4; ++i) {
-        to[met_count] = node.child[i];
-        met_count += static_cast<std::size_t>(met[i] & 1);
-      }
+      const Met& met = kMet[bits_of(meets(node.boxes))];
+      end[0] = node.child[met.place[0]];
+      end[1] = node.child[met.place[1]];
+      end[2] = node.child[met.place[2]];
+      end[3] = node.child[met.place[3]];
+      end += met.count;
     }
+    const auto met_count = static_cast<std::size_t>(end - to.data());
     from.swap(to);
     return met_count;
   }
