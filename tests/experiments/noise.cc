@@ -1,9 +1,12 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/mesh/box.h"
 #include "core/mesh/perturb.h"
 #include "core/quality/interior_points.h"
 #include "experiments.h"
+#include "fields.h"
 #include "gallery.h"
 #include "job.h"
 #include "sheet.h"
@@ -105,6 +108,54 @@ void show(const Bodies& bodies, const OperatorStudies& studies, Report& report) 
       {format("noise of 1 %% of the diagonal, body of %u", bodies.triangles), "-", studies.shares(2), "-"});
 }
 
+// By the normals, and in the infimum.
+using ChordPlaces = std::array<std::vector<core::Vec3>, 2>;
+
+ChordPlaces chord_places(const core::Mesh& mesh, double dt, unsigned threads) {
+  Fields fields(mesh, grid_round(mesh, dt), "triangles", threads);
+  ChordPlaces places;
+  places[0] = skeleton_by(Operator::kChords, fields.job()).place;
+  fields.go_on();
+  places[1] = skeleton_by(Operator::kChords, fields.job()).place;
+  return places;
+}
+
+struct Shares {
+  double there = 0, back = 0;
+
+  std::string text() const { return format("%.1f / %.1f %%", 100 * there, 100 * back); }
+};
+
+// Rows of the means and the worst of all seeds.
+void study_seeds(const Setting& setting, std::uint32_t triangles, Table& table) {
+  const core::Mesh& mesh = setting.body(triangles);
+  const double dt = setting.spacing(), radius = std::sqrt(3.0) * dt;
+  const ChordPlaces clean = chord_places(mesh, dt, setting.threads);
+  for (const Level& level : levels(mesh)) {
+    std::array<Shares, 2> mean, worst{{{1, 1}, {1, 1}}};
+    for (std::uint64_t seed = 1; seed <= setting.seeds; ++seed) {
+      const ChordPlaces noisy = chord_places(core::perturb(mesh, {level.sigma, seed}), dt, setting.threads);
+      for (std::size_t m = 0; m < 2; ++m) {
+        const core::Similarity alike = core::similarity(clean[m], noisy[m]);
+        const Shares one{alike.b_in_a.share_within(radius), alike.a_in_b.share_within(radius)};
+        mean[m] = {mean[m].there + one.there / setting.seeds, mean[m].back + one.back / setting.seeds};
+        worst[m] = {std::min(worst[m].there, one.there), std::min(worst[m].back, one.back)};
+      }
+    }
+    for (std::size_t m = 0; m < 2; ++m) {
+      table.rows.push_back({std::to_string(triangles), m == 0 ? "normals" : "infimum", level.name,
+                            mean[m].text(), worst[m].text()});
+    }
+  }
+}
+
+void chords_by_seeds(const Setting& setting, Report& report) {
+  report.subsection(format("`chords` over the normals and in the infimum, %u seeds", setting.seeds));
+  Table table{{"body", "E", "noise", "mean there / back", "worst there / back"}, {}};
+  for (const std::uint32_t triangles : {292U, 1000U}) study_seeds(setting, triangles, table);
+  report.table(table);
+}
+
 constexpr const char* kText =
     "Published: vertices moved at random, from a normal distribution of standard deviation 1; 94 % "
     "similar points at a squared distance of 1e8, in skeletons of about 5000 points. That is a distance "
@@ -140,6 +191,7 @@ void noise_experiment(const Setting& setting, Report& report) {
     if (first) show(bodies, studies, report);
     first = false;
   }
+  if (!setting.quick) chords_by_seeds(setting, report);
 }
 
 }  // namespace affskel::experiments

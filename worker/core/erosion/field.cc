@@ -12,16 +12,14 @@ using Mask = std::atomic_ref<std::uint16_t>;
 
 ErosionField::ErosionField(std::uint32_t points, bool track_changes)
     : erosion_(points, std::numeric_limits<double>::infinity()),
-      area_(points, 0),
-      direction_(points, FieldValue::kNoDirection),
+      optimum_(points),
       changed_(track_changes ? points / kGroup + 1 : 0, 0) {}
 
 void ErosionField::offer(std::uint32_t point, const FieldValue& offered) {
   const std::lock_guard<SpinLock> guard(lock_of(point));
-  if (!offered.improves({erosion_[point], area_[point], direction_[point]})) return;
+  if (!offered.improves(value_at(point))) return;
   std::atomic_ref<double>(erosion_[point]).store(offered.erosion, std::memory_order_relaxed);
-  area_[point] = offered.area;
-  direction_[point] = offered.direction;
+  optimum_[point] = {offered.area, offered.direction};
   if (changed_.empty()) return;
   // Only ever written under the lock; take_changes() looks at it without.
   const Mask mask(changed_[point / kGroup]);
@@ -34,8 +32,7 @@ void ErosionField::bound(std::uint32_t point, double max_erosion) {
   const std::lock_guard<SpinLock> guard(lock_of(point));
   if (!(max_erosion < erosion_[point])) return;
   std::atomic_ref<double>(erosion_[point]).store(max_erosion, std::memory_order_relaxed);
-  area_[point] = 0;
-  direction_[point] = FieldValue::kNoDirection;
+  optimum_[point] = {};
   if (changed_.empty()) return;
   const Mask mask(changed_[point / kGroup]);
   const auto bit = static_cast<std::uint16_t>(1U << (point % kGroup));
@@ -45,7 +42,7 @@ void ErosionField::bound(std::uint32_t point, double max_erosion) {
 
 FieldValue ErosionField::value(std::uint32_t point) const {
   const std::lock_guard<SpinLock> guard(lock_of(point));
-  return {erosion_[point], area_[point], direction_[point]};
+  return value_at(point);
 }
 
 std::uint32_t ErosionField::changes() const {
@@ -64,7 +61,7 @@ void ErosionField::take_group(std::uint32_t group, ChangedGroup& taken) {
   for (unsigned bits = mask.load(std::memory_order_relaxed); bits != 0; bits &= bits - 1) {
     const std::uint32_t point = group * kGroup + static_cast<std::uint32_t>(std::countr_zero(bits));
     taken.point[taken.count] = point;
-    taken.value[taken.count++] = {erosion_[point], area_[point], direction_[point]};
+    taken.value[taken.count++] = value_at(point);
   }
   mask.store(0, std::memory_order_relaxed);
 }

@@ -73,6 +73,11 @@ class ErosionField {
   }
 
  private:
+  // Side by side, since what is improved is rarely in the cache; packed for the memory.
+  struct [[gnu::packed]] Optimum {
+    double area = 0;
+    std::uint32_t direction = FieldValue::kNoDirection;
+  };
   static constexpr std::size_t kLocks = 1024;
   // Held for a few stores only.  As many mutexes would push the field out of the first-level cache.
   class SpinLock {
@@ -96,13 +101,15 @@ class ErosionField {
     std::array<FieldValue, kGroup> value;
   };
 
+  FieldValue value_at(std::uint32_t point) const {
+    return {erosion_[point], optimum_[point].area, optimum_[point].direction};
+  }
   SpinLock& lock_of(std::uint32_t point) const { return locks_[point / kGroup % kLocks]; }
 
   void take_group(std::uint32_t group, ChangedGroup& taken);
 
   std::vector<double> erosion_;
-  std::vector<double> area_;
-  std::vector<std::uint32_t> direction_;
+  std::vector<Optimum> optimum_;
   std::vector<std::uint16_t> changed_;  // per group, a bit for each point; empty when not tracked
   mutable std::array<SpinLock, kLocks> locks_;
 };

@@ -30,6 +30,22 @@ DoubleSum restored(std::uint64_t value) {
   return {hi / kUnit, lo / kUnit};
 }
 
+// Edges that join all vertices of each shell, of the least length together (Kruskal 1956): planes cut as few of them
+// as they can, by Cauchy's and Crofton's formula.
+std::vector<Segment> shortest_trees(const Mesh& mesh) {
+  std::vector<std::pair<double, Segment>> by_length;
+  Edges(mesh.points.size(), mesh.triangles).for_each([&](std::uint32_t a, std::uint32_t b, const auto&) {
+    by_length.emplace_back(norm(mesh.points[b] - mesh.points[a]), Segment{a, b});
+  });
+  std::ranges::sort(by_length);
+  DisjointSets joined(mesh.points.size());
+  std::vector<Segment> trees;
+  for (const auto& [length, edge] : by_length) {
+    if (joined.unite(edge[0], edge[1])) trees.push_back(edge);
+  }
+  return trees;
+}
+
 // The vertices in preorder.
 std::vector<std::uint32_t> preorder_of(const BreadthFirstTrees& trees) {
   const std::vector<std::uint32_t>& parent = trees.parent;
@@ -104,8 +120,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> PieceInput::number_anew(con
 }
 
 void PieceInput::plant_trees() {
-  // Breadth first, so that their branches stay short.
-  BreadthFirstTrees trees = breadth_first_trees(mesh.points.size(), mesh.triangles);
+  BreadthFirstTrees trees = breadth_first_trees(neighbours(mesh.points.size(), shortest_trees(mesh)));
   const std::vector<std::uint32_t> order = preorder_of(trees);
   parent_ = std::move(trees.parent);
   branches.resize(mesh.points.size());

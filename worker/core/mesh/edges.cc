@@ -46,8 +46,8 @@ Adjacency neighbours(std::size_t points, std::span<const Segment> segments) {
           }};
 }
 
-BreadthFirstTrees breadth_first_trees(std::size_t points, std::span<const Triangle> triangles) {
-  const Adjacency around = neighbours(points, triangles);
+BreadthFirstTrees breadth_first_trees(const Adjacency& around) {
+  const std::size_t points = around.size();
   BreadthFirstTrees trees{{}, std::vector<std::uint32_t>(points, kNone)};
   const auto reach = [&](std::uint32_t vertex, std::uint32_t from) {
     if (trees.parent[vertex] != kNone) return;

@@ -15,7 +15,7 @@ namespace {
 class Trees {
  public:
   explicit Trees(const Mesh& mesh) : depth_(mesh.points.size(), 0) {
-    BreadthFirstTrees trees = breadth_first_trees(mesh.points.size(), mesh.triangles);
+    BreadthFirstTrees trees = breadth_first_trees(neighbours(mesh.points.size(), mesh.triangles));
     parent_ = std::move(trees.parent);
     for (const std::uint32_t v : trees.order)
       if (parent_[v] != v) depth_[v] = depth_[parent_[v]] + 1;
