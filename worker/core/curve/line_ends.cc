@@ -15,10 +15,9 @@ constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known 
 // way to the joint at most that share.
 constexpr double kCorner = 2, kNearCorner = 1.5, kInner = 0.6;
 constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
-constexpr double kAhead =
-    0.4;  // cosine: less where a limb turns, as a vessel that leaves the wall of a heart
-constexpr double kReaches = 0.65;  // of what the line did: into a corner of a bar most of that
-constexpr double kWider = 1.1;     // times: no bar's end, but a head or a foot
+// Of the ball where a line leaves the middle what that a radius before its end has, in a limb that turns; less in a corner.
+constexpr double kStays = 0.85;
+constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
 // Of a tube as long, what an end has: up to the one it is round, from the other on flat.
@@ -32,15 +31,16 @@ class DrawEnd {
     const std::size_t first =
         first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
     const std::optional<Start> before_corner = start_before_corner(first);
-    if (before_corner && draw(*before_corner, true)) return;
-    draw({first, outward_at(first)}, false);
+    draw(before_corner ? *before_corner : Start{first, outward_at(first)});
   }
 
  private:
   const Vec3& at(std::size_t n) const { return places_[in_.line[n]]; }
 
+  double ball(std::size_t n) const { return in_.surface.distance.nearest(at(n)); }
+
   Vec3 outward_at(std::size_t n) const {
-    return outward(places_, in_.line.subspan(n), in_.surface.distance.nearest(at(n)) + in_.spacing, 0);
+    return outward(places_, in_.line.subspan(n), ball(n) + in_.spacing, 0);
   }
 
   LimbSection section(const Vec3& place, const Vec3& across) const {
@@ -61,22 +61,16 @@ class DrawEnd {
   };
 
   // Straight on from there.
-  // @param reaches whether the ball about its end must reach about as far as the line did: before the tip of a limb that turns
-  // it would come to the wall.
-  // @return whether it is drawn.
-  bool draw(const Start& start, bool reaches) {
+  void draw(const Start& start) {
     const auto& [first, along] = start;
-    if (along == Vec3{}) return false;
+    if (along == Vec3{}) return;
     const Vec3 from = at(first);
     double way = to_centre(from, along);
-    if (reaches && way + in_.surface.distance.nearest(from + way * along) < kReaches * norm(at(0) - from))
-      return false;
     way += to_face(from + way * along, along);
     const std::size_t count = std::max<std::size_t>(first, 1);
     for (std::size_t n = 0; n < count; ++n)
       places_[in_.line[n]] =
           from + (way * static_cast<double>(count - n) / static_cast<double>(count)) * along;
-    return true;
   }
 
   // Where a line that leads into a corner leaves the middle.
@@ -93,8 +87,10 @@ class DrawEnd {
         std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight) - at(inner)));
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
     if (dot(along, unit(at(0) - at(first))) > kTurned) return std::nullopt;
-    if (dot(along, unit(at(0) - at(inner))) < kAhead) return std::nullopt;
-    const double widest = kWider * section(at(inner), along).radius;
+    const double radius = section(at(inner), along).radius;
+    const std::size_t before_end = first_away([&](std::size_t, double way) { return way < radius; });
+    if (ball(before_end) > kStays * ball(inner)) return std::nullopt;
+    const double widest = kWider * radius;
     for (std::size_t n = 0; n < inner; ++n)
       if (section(at(n), along).radius > widest) return std::nullopt;
     return Start{inner, along};
