@@ -15,8 +15,9 @@ constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known 
 // way to the joint at most that share.
 constexpr double kCorner = 2, kNearCorner = 1.5, kInner = 0.6;
 constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
-// Of the ball where a line leaves the middle what that a radius before its end has, in a limb that turns; less in a corner.
-constexpr double kStays = 0.85;
+// A limb that turns before its tip: of the ball where it does, what that a radius before its end has.  In a flat one, whose
+// section has a radius of so many balls, these are as large in a corner: straight on, less of the line's way is reached.
+constexpr double kStays = 0.93, kFlat = 1.15, kReaches = 0.65;
 constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
@@ -88,12 +89,19 @@ class DrawEnd {
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
     if (dot(along, unit(at(0) - at(first))) > kTurned) return std::nullopt;
     const double radius = section(at(inner), along).radius;
-    const std::size_t before_end = first_away([&](std::size_t, double way) { return way < radius; });
-    if (ball(before_end) > kStays * ball(inner)) return std::nullopt;
+    if (turns(inner, along, radius)) return std::nullopt;
     const double widest = kWider * radius;
     for (std::size_t n = 0; n < inner; ++n)
       if (section(at(n), along).radius > widest) return std::nullopt;
     return Start{inner, along};
+  }
+
+  // Whether a line that turns beyond a vertex follows its limb there.
+  bool turns(std::size_t from, const Vec3& along, double radius) const {
+    if (radius < kFlat * ball(from))
+      return ball(first_away([&](std::size_t, double way) { return way < radius; })) > kStays * ball(from);
+    const double way = to_centre(at(from), along);
+    return way + in_.surface.distance.nearest(at(from) + way * along) < kReaches * norm(at(0) - at(from));
   }
 
   double to_centre(const Vec3& from, const Vec3& along) const {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/base/unit.h"
 #include "core/curve/tubes.h"
 #include "core/shapes/shapes.h"
 
@@ -77,6 +78,27 @@ TEST(LineEnds, OfALimbThatTurnsIsTheCentreOfItsEnd) {
       std::iota(line.begin(), line.end(), 0U);
       draw_end({LimbSurface(limb), kSpacing, line, 0, end + way}, places);
       EXPECT_LT(norm(places[0] - end), 0.25) << degrees << ' ' << tail;
+    }
+}
+
+// About a circle of four and five radii, as fingers are: within two radii of its end it turns as far as into a corner.
+TEST(LineEnds, OfALimbThatBendsIsTheCentreOfItsEnd) {
+  for (const double bend : {4., 5.})
+    for (const double degrees : {45., 90., 135.}) {
+      std::vector<Vec3> middle{{0, 0, -10}};
+      for (double part = 0; part <= 1; part += 1. / 64) {
+        const double turn = part * degrees * std::numbers::pi / 180;
+        middle.push_back({bend * (1 - std::cos(turn)), 0, bend * std::sin(turn)});
+      }
+      std::vector<Tube> tubes;
+      for (std::size_t n = 0; n + 1 < middle.size(); ++n) tubes.push_back({middle[n], middle[n + 1], 1});
+      std::vector<Vec3> places(middle.rbegin(), middle.rend() - 1);
+      for (double z = -kSpacing; z > -9; z -= kSpacing) places.push_back({0, 0, z});
+      std::vector<std::uint32_t> line(places.size());
+      std::iota(line.begin(), line.end(), 0U);
+      const Vec3 end = middle.back(), way = unit(end - middle[middle.size() - 2]);
+      draw_end({LimbSurface(tube_mesh(tubes, 0.2)), kSpacing, line, 0, end + way}, places);
+      EXPECT_LT(norm(places[0] - end), 0.35) << bend << ' ' << degrees;
     }
 }
 
