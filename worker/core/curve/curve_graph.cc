@@ -15,9 +15,9 @@
 namespace affskel::core {
 namespace {
 
-// The direction of a branch is that of its stretch from one radius of the joint on, so many of its own radii long:
-// nearer, lines bend into each other.
-constexpr double kStretch = 4;
+// The direction of a branch is that of its stretch from one radius of the joint on, so many of its own radii long: nearer, lines
+// bend into each other.  Where it bends, shorter: as long as this is no longer than its ends are apart, as a share.
+constexpr double kStretch = 4, kLeastStretch = 0.5, kAboutStraight = 0.995;
 
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
@@ -252,9 +252,13 @@ class GraphOfCurve {
   Vec3 direction(const CurveBranch& branch, bool from_last) const {
     const std::uint32_t joint = from_last ? branch.vertices.back() : branch.vertices.front();
     const double begin = is_body(joint) ? 0 : std::min(radius_[joint], 0.5 * branch.length);
-    const double end = std::min(begin + kStretch * branch.mean_radius, branch.length);
     const auto line = outside_bodies(branch);
-    return unit(place_along(places_, line, from_last, end) - place_along(places_, line, from_last, begin));
+    const Vec3 first = place_along(places_, line, from_last, begin);
+    const auto to = [&](double way) { return place_along(places_, line, from_last, begin + way) - first; };
+    double stretch = std::min(kStretch * branch.mean_radius, branch.length - begin);
+    while (stretch > kLeastStretch * branch.mean_radius && norm(to(stretch)) < kAboutStraight * stretch)
+      stretch *= 0.9;
+    return unit(to(stretch));
   }
 
   // The first other branch at an end.

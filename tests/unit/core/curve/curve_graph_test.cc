@@ -149,13 +149,30 @@ TEST(CurveGraph, AnAngleAtABodyIsMeasuredFromWhereTheLimbLeavesIt) {
   Lines lines;
   lines.radius = 3;
   const std::uint32_t middle = lines.begin({0, 0, 0});
-  for (const double side : {-1., 1.}) lines.go(lines.go(middle, {side, 0, 0}, 5), {0, 1, 0}, 2);
+  const double half = std::sqrt(0.5);
+  for (const double side : {-1., 1.}) lines.go(lines.go(middle, {side, 0, 0}, 3), {side * half, half, 0}, 4);
   lines.go(middle, {0, 0, 1}, 4);
   for (const Vec3& place : lines.places)
     lines.share.push_back(norm(place) == 0 ? 0.8 : std::abs(place.x) < 3 ? 0 : 0.02);
   const CurveGraph graph = lines.graph();
   ASSERT_EQ(graph.branches.size(), 4U);
   for (const std::size_t limb : {1, 2}) EXPECT_NEAR(graph.branches[limb].angle, 90, 1e-9);
+}
+
+// A shaft that ends in a bow, and a tooth square to it: the bow tells nothing of how the shaft begins.
+TEST(CurveGraph, AnAngleIsThatBeforeABranchBends) {
+  Lines lines;
+  lines.radius = 0.5;
+  const std::uint32_t joint = lines.begin({0, 0, 0});
+  lines.go(joint, {-1, 0, 0}, 10);
+  lines.go(joint, {0, -1, 0}, 4);
+  lines.go(lines.go(joint, {1, 0, 0}, 2), {0, -1, 0}, 3);
+  for (const Vec3& place : lines.places) lines.share.push_back(place.x > 0 ? 0.02 : place.x < 0 ? 0.001 : 0);
+  const CurveGraph graph = lines.graph();
+  ASSERT_EQ(graph.branches.size(), 3U);
+  for (const CurveBranch& branch : graph.branches)
+    EXPECT_NEAR(branch.angle, norm(lines.places[branch.vertices.back()] - Vec3{0, -4, 0}) < 1e-9 ? 90 : 180,
+                1e-6);
 }
 
 // From the top of a trunk a link to a fork: without a share it is no part.
