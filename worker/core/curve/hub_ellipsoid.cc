@@ -40,13 +40,15 @@ double HubEllipsoid::filled_by(const PlaceMoments& points, double spacing) const
   return ball * std::sqrt(determinant(form));
 }
 
-double HubEllipsoid::shortest() const {
-  return 1 / std::sqrt(symmetric_eigen(form).values[0]);
+std::array<double, 3> HubEllipsoid::half_axes() const {
+  auto axes = symmetric_eigen(form).values;  // one over their squares
+  for (double& axis : axes) axis = 1 / std::sqrt(axis);
+  return axes;
 }
 
 bool HubEllipsoid::is_bar() const {
-  const auto steep = symmetric_eigen(form).values;  // one over the squares of the axes
-  return steep[1] > kBar * kBar * steep[2];
+  const auto axes = half_axes();
+  return axes[2] > kBar * axes[1];
 }
 
 double ball_radius(double points, double spacing) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/base/matrix3.h"
 #include "core/base/vec3.h"
 #include "core/curve/parted_lines.h"
@@ -29,8 +31,8 @@ struct HubEllipsoid {
   /// rods.
   double filled_by(const PlaceMoments& points, double spacing) const;
 
-  /// Its shortest half axis.
-  double shortest() const;
+  /// Half its axes, the shortest first.
+  std::array<double, 3> half_axes() const;
 
   /// Whether it is 2.25 times as long as wide.
   bool is_bar() const;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kThick = 1.55;       // times as thick as all its limbs but the thickest
 constexpr double kThicker = 1.4;      // times as thick as the thickest
+constexpr double kAcross = 1.3;       // times the thickest, its second axis: of a stretch of a tube 1.23
 constexpr double kLack = 2;           // of what a hub has, for each that its ellipsoid lacks
 constexpr double kTaken = 1.2;        // times what lies in its ellipsoid, with all that its limbs leave it
 constexpr double kOfTube = 1.1;       // times a limb's own sections: where they are larger, a hub begins
@@ -155,10 +156,10 @@ class FindHubs {
       for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
         if (found.has[limb.line[0]] != 0) part_by_sections(limb.line, found.has);
     const PlaceMoments left = moments_of(found.has);
-    if (!(left.count > 0) || left.count > kTaken * found.within.count || !is_thick(found, left.count))
-      return false;
+    if (!(left.count > 0) || left.count > kTaken * found.within.count) return false;
     const HubEllipsoid form = ellipsoid_of(left);
-    if (form.is_bar() || form.shortest() < kResolved * in_.lattice.spacing ||
+    if (!is_thick(found, form.half_axes()[1], left.count) || form.is_bar() ||
+        form.half_axes()[0] < kResolved * in_.lattice.spacing ||
         !is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * form.centre))
       return false;
     const double filled = form.filled_by(left, in_.lattice.spacing);
@@ -205,7 +206,8 @@ class FindHubs {
     while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) has[line[--first]] = 0;
   }
 
-  bool is_thick(const Candidate& found, double count) const {
+  // Across the thickest limb, too: a stretch of a limb that ends near a branch is a ball as thick.
+  bool is_thick(const Candidate& found, double across, double count) const {
     std::vector<double> sizes;
     const auto has = [&](std::uint32_t v) { return found.has[v] != 0; };
     for (const PartedLimb& limb : parted_.limbs)
@@ -213,7 +215,8 @@ class FindHubs {
         sizes.push_back(limb.size);
     std::ranges::sort(sizes, std::greater<>());
     const double radius = diameter_of(count) / 2;
-    return !sizes.empty() && radius > kThicker * sizes[0] && (sizes.size() < 2 || radius > kThick * sizes[1]);
+    return !sizes.empty() && radius > kThicker * sizes[0] && across > kAcross * sizes[0] &&
+           (sizes.size() < 2 || radius > kThick * sizes[1]);
   }
 
   // Of those in one place, where the middle of one lies in the other, that of most worth.
