@@ -217,6 +217,18 @@ TEST(LimbHubs, AreNoBars) {
   }
 }
 
+// With a branch beside it the end of a bar is a ball of 1.42 sections, as thick across as the rest.
+TEST(LimbHubs, AreNotTheEndsOfBars) {
+  for (const double thick : {1.12, 0.9}) {
+    Cube bar({2, 2, 4.4});
+    const std::uint32_t joint = bar.add(bar.middle, 2);
+    bar.go_out(joint, kCross, 1.5, 1.5);
+    bar.go(joint, {0, 0, 0.1}, 80, thick);
+    for (int n = 1; n <= 80; ++n) bar.radius.push_back(std::max(thick, 1.5 - std::max(0.0, 0.15 * n - 3)));
+    EXPECT_EQ(bar.found().hubs.size(), thick < 1 ? 1U : 0U) << thick;
+  }
+}
+
 // A shell as thick as its cavity is wide, as the ring of a gear: what hangs on it hangs on no ball.
 TEST(LimbHubs, AreNoRings) {
   const double inside = kCubeSide / 3;
