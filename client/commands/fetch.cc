@@ -78,8 +78,9 @@ void add_fetch(CommandLine& line) {
           "that counts, in its own radii (default: 0.9, of the curve the job's where its\noperator is curve)")
       ->check(positive_number())
       ->type_name("T");
-  command->add_flag("--parts", options->parts,
-                    "The field with the part of the solid (see measure) that each sample\npoint lies in");
+  command->add_flag(
+      "--parts", options->parts,
+      "The field with the part of the solid (see measure) that each sample\npoint lies in; not as .dat");
   add_output(command, options->output, "File to write; the format follows the extension; - is stdout");
   add_format(command, options->format);
 }

@@ -21,6 +21,15 @@ std::span<const FileFormat> divergence_formats() {
   return field_formats();
 }
 
+std::span<const FileFormat> parted_field_formats() {
+  static const std::vector<FileFormat> formats = [] {
+    std::vector<FileFormat> all(field_formats().begin(), field_formats().end());
+    std::erase(all, FileFormat::kDat);
+    return all;
+  }();
+  return formats;
+}
+
 std::span<const FileFormat> thickness_formats() {
   return kThickness;
 }

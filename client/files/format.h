@@ -16,6 +16,7 @@ using core::surface_formats;
 
 /// More of what can be written as which formats.
 std::span<const FileFormat> divergence_formats();     // as fields
+std::span<const FileFormat> parted_field_formats();   // as fields, but for dat
 std::span<const FileFormat> thickness_formats();      // ply, vtp
 std::span<const FileFormat> curve_file_formats();     // those of core, and as points csv and xyz
 std::span<const FileFormat> skeleton_file_formats();  // surface_formats and skeleton_formats, best first

@@ -87,7 +87,9 @@ Notices grid_notices(FileFormat format, const LatticePoints& points, const Desti
 }  // namespace
 
 Fetched fetch_field(Session& session, const FetchRequest& request) {
-  const FileFormat format = choose_format(request.destination, field_formats(), "field");
+  const FileFormat format =
+      request.parts ? choose_format(request.destination, parted_field_formats(), "field with parts")
+                    : choose_format(request.destination, field_formats(), "field");
   const v1::Job now = session.get_job(request.job);
   // The finished field first: its absence is the error to report.
   const bool on_the_way = now.stage() == v1::JOB_STAGE_REFINE ||

@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
   std::set<std::string> names;
   for (const Experiment& experiment : kExperiments) names.insert(experiment.name);
   app.add_option("--only", only, "one experiment alone")->check(CLI::IsMember(names));
-  app.add_option("--seeds", setting.seeds, "of steadiness: noises of each level")
+  app.add_option("--seeds", setting.seeds, "of steadiness, noise and graphs: noises of each level")
       ->check(CLI::Range(1U, 1000U))
       ->capture_default_str();
   app.add_option("--mesh", setting.meshes,

@@ -29,7 +29,7 @@ std::optional<double> compared_to(double threshold) {
 
 // Why a curve has none.
 std::string without_lines(const core::CurveSkeleton& curve, double threshold) {
-  const std::string alone = "the curve is the place of the greatest E alone, without a line.";
+  const std::string alone = "the curve is the place of the skeleton's greatest E alone, without a line.";
   if (curve.opened.empty())
     return "no limb is " + base::to_text(threshold) + " of its own radii long: " + alone;
   return "the solid is a membrane round a cavity, and a line leads through limbs, not round that: " + alone +

@@ -166,6 +166,7 @@ TEST_F(MeasureTest, TheFieldHasPartsWhereTheyAreAskedFor) {
   while (std::getline(lines, line)) parts.push_back(line.back());
   EXPECT_EQ(parts, "11231") << "in the order of the sample points";
   EXPECT_EQ(run({"fetch", "@last", "mesh", "--parts", "-o", dir_ / "m.off"}).exit_code, 2);
+  EXPECT_EQ(run({"fetch", "@last", "field", "--parts", "-o", dir_ / "f.dat"}).exit_code, 2) << "no column";
   v1::SolidParts other = sample_parts();
   other.add_point_part(1);
   service_.artifacts[v1::ARTIFACT_KIND_PARTS] = other.SerializeAsString();
