@@ -15,9 +15,9 @@
 namespace affskel::core {
 namespace {
 
-// The direction of a branch is that of its stretch from one radius of the joint on, so many of its own radii long: nearer, lines
-// bend into each other.  Where it bends, shorter: as long as this is no longer than its ends are apart, as a share.
-constexpr double kStretch = 4, kLeastStretch = 0.5, kAboutStraight = 0.995;
+// The direction of a branch is that of its stretch from one radius of the joint on, at most so many of its own radii long:
+// nearer, lines bend into each other.  Where it bends that is shorter, until its ends are as far apart as kAboutStraight of it.
+constexpr double kStretch = 4, kLeastStretch = 1, kAboutStraight = 0.995;
 
 // Of the extent of some branches: what is nearer to each other has no order along that axis.
 constexpr double kCloseTogether = 0.1;
@@ -256,8 +256,9 @@ class GraphOfCurve {
     const Vec3 first = place_along(places_, line, from_last, begin);
     const auto to = [&](double way) { return place_along(places_, line, from_last, begin + way) - first; };
     double stretch = std::min(kStretch * branch.mean_radius, branch.length - begin);
-    while (stretch > kLeastStretch * branch.mean_radius && norm(to(stretch)) < kAboutStraight * stretch)
-      stretch *= 0.9;
+    const double least = std::min(kLeastStretch * branch.mean_radius, stretch);
+    while (stretch > least && norm(to(stretch)) < kAboutStraight * stretch)
+      stretch = std::max(0.9 * stretch, least);
     return unit(to(stretch));
   }
 

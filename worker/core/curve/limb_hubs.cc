@@ -1,6 +1,7 @@
 #include "core/curve/limb_hubs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -158,8 +159,8 @@ class FindHubs {
     const PlaceMoments left = moments_of(found.has);
     if (!(left.count > 0) || left.count > kTaken * found.within.count) return false;
     const HubEllipsoid form = ellipsoid_of(left);
-    if (!is_thick(found, form.half_axes()[1], left.count) || form.is_bar() ||
-        form.half_axes()[0] < kResolved * in_.lattice.spacing ||
+    const auto axes = form.half_axes();
+    if (!is_thick(found, axes, left.count) || form.is_bar() || axes[0] < kResolved * in_.lattice.spacing ||
         !is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * form.centre))
       return false;
     const double filled = form.filled_by(left, in_.lattice.spacing);
@@ -207,7 +208,7 @@ class FindHubs {
   }
 
   // Across the thickest limb, too: a stretch of a limb that ends near a branch is a ball as thick.
-  bool is_thick(const Candidate& found, double across, double count) const {
+  bool is_thick(const Candidate& found, const std::array<double, 3>& axes, double count) const {
     std::vector<double> sizes;
     const auto has = [&](std::uint32_t v) { return found.has[v] != 0; };
     for (const PartedLimb& limb : parted_.limbs)
@@ -215,7 +216,7 @@ class FindHubs {
         sizes.push_back(limb.size);
     std::ranges::sort(sizes, std::greater<>());
     const double radius = diameter_of(count) / 2;
-    return !sizes.empty() && radius > kThicker * sizes[0] && across > kAcross * sizes[0] &&
+    return !sizes.empty() && radius > kThicker * sizes[0] && axes[1] > kAcross * sizes[0] &&
            (sizes.size() < 2 || radius > kThick * sizes[1]);
   }
 

@@ -15,10 +15,11 @@ constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known 
 // way to the joint at most that share.
 constexpr double kCorner = 2, kNearCorner = 1.5, kInner = 0.6;
 constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
-// A limb that turns before its tip: of the ball where it does, what that a radius before its end has.  In a flat one, whose
-// section has a radius of so many balls, these are as large in a corner: straight on, less of the line's way is reached.
-constexpr double kStays = 0.93, kFlat = 1.15, kReaches = 0.65;
-constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
+// Of a limb that turns before its tip: what of the ball there that a radius before its end has, or, flatter than so many balls
+// and as large in its corners, how much of the line's way is reached straight on, at most.
+constexpr double kStays = 0.85, kFlat = 1.15, kReaches = 0.65;
+constexpr double kOfPlate = 1.7;  // as kFlat: sections end at two balls there
+constexpr double kWider = 1.1;    // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
 // Of a tube as long, what an end has: up to the one it is round, from the other on flat.
@@ -87,8 +88,9 @@ class DrawEnd {
     const double stretch =
         std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight) - at(inner)));
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
-    if (dot(along, unit(at(0) - at(first))) > kTurned) return std::nullopt;
+    if (along == Vec3{}) return std::nullopt;
     const double radius = section(at(inner), along).radius;
+    if (goes_straight_on(first, inner, along, radius)) return std::nullopt;
     if (turns(inner, along, radius)) return std::nullopt;
     const double widest = kWider * radius;
     for (std::size_t n = 0; n < inner; ++n)
@@ -96,10 +98,18 @@ class DrawEnd {
     return Start{inner, along};
   }
 
+  // In a plate, which has no middle across but the line's, it may turn aside to its tip and back.
+  bool goes_straight_on(std::size_t first, std::size_t from, const Vec3& along, double radius) const {
+    if (dot(along, unit(at(0) - at(first))) <= kTurned) return false;
+    for (std::size_t n = first; n < from && radius > kOfPlate * ball(from); ++n)
+      if (dot(along, outward_at(n)) <= kTurned) return false;
+    return true;
+  }
+
   // Whether a line that turns beyond a vertex follows its limb there.
   bool turns(std::size_t from, const Vec3& along, double radius) const {
-    if (radius < kFlat * ball(from))
-      return ball(first_away([&](std::size_t, double way) { return way < radius; })) > kStays * ball(from);
+    const std::size_t before_end = first_away([&](std::size_t, double way) { return way < radius; });
+    if (radius < kFlat * ball(from) && ball(before_end) > kStays * ball(from)) return true;
     const double way = to_centre(at(from), along);
     return way + in_.surface.distance.nearest(at(from) + way * along) < kReaches * norm(at(0) - at(from));
   }

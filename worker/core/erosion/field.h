@@ -78,6 +78,7 @@ class ErosionField {
     double area = 0;
     std::uint32_t direction = FieldValue::kNoDirection;
   };
+  static_assert(sizeof(Optimum) == 12);
   static constexpr std::size_t kLocks = 1024;
   // Held for a few stores only.  As many mutexes would push the field out of the first-level cache.
   class SpinLock {

@@ -30,10 +30,11 @@ DoubleSum restored(std::uint64_t value) {
   return {hi / kUnit, lo / kUnit};
 }
 
-// Edges that join all vertices of each shell, of the least length together (Kruskal 1956): planes cut as few of them
-// as they can, by Cauchy's and Crofton's formula.
+// Edges that join all vertices of each shell, of the least length together (Kruskal 1956): of all such, planes cut fewest of
+// these on the mean, as many as they are long (Cauchy, Crofton).
 std::vector<Segment> shortest_trees(const Mesh& mesh) {
   std::vector<std::pair<double, Segment>> by_length;
+  by_length.reserve(mesh.triangles.size() / 2 * 3);
   Edges(mesh.points.size(), mesh.triangles).for_each([&](std::uint32_t a, std::uint32_t b, const auto&) {
     by_length.emplace_back(norm(mesh.points[b] - mesh.points[a]), Segment{a, b});
   });

@@ -38,7 +38,7 @@ struct SurfaceSums {
 /// What all planes through a solid share, for PieceFinder.  Immutable; threads share it.
 ///
 /// Vertices and triangles are numbered anew, so that neighbours are near in memory.  Each shell has a spanning
-/// tree of its vertices; in its preorder those below one are an interval.  A set of vertices that is connected in the
+/// tree of its vertices, the shortest; in its preorder those below one are an interval.  A set of vertices that is connected in the
 /// tree is a difference of such intervals, so that its sums are known from the tree edges that leave it.
 struct PieceInput {
   struct Shell {

@@ -57,7 +57,7 @@ Adjacency neighbours(std::size_t points, std::span<const Triangle> triangles);
 /// Of every vertex the other ends of its segments, in their order.
 Adjacency neighbours(std::size_t points, std::span<const Segment> segments);
 
-/// Breadth first trees over the vertices, one for all that are connected, from their first vertex on.
+/// Breadth first trees over the vertices, one for all that are connected, from their first vertex on; neighbours in their order.
 struct BreadthFirstTrees {
   std::vector<std::uint32_t> order;   ///< of the vertices, tree by tree
   std::vector<std::uint32_t> parent;  ///< per vertex; of a root itself

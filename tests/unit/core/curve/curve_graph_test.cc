@@ -150,7 +150,9 @@ TEST(CurveGraph, AnAngleAtABodyIsMeasuredFromWhereTheLimbLeavesIt) {
   lines.radius = 3;
   const std::uint32_t middle = lines.begin({0, 0, 0});
   const double half = std::sqrt(0.5);
-  for (const double side : {-1., 1.}) lines.go(lines.go(middle, {side, 0, 0}, 3), {side * half, half, 0}, 4);
+  for (const double side : {-1., 1.})
+    lines.go(lines.go(lines.go(middle, {side, 0, 0}, 3), {side * half, half, 0}, 4), {side * half, -half, 0},
+             4);
   lines.go(middle, {0, 0, 1}, 4);
   for (const Vec3& place : lines.places)
     lines.share.push_back(norm(place) == 0 ? 0.8 : std::abs(place.x) < 3 ? 0 : 0.02);

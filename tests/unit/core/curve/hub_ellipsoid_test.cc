@@ -33,6 +33,7 @@ TEST(HubEllipsoid, HasTheMomentsOfItsPoints) {
     Vec3 end = box.centre;
     end[axis] += half;
     EXPECT_NEAR(box.outside(end), 0, 1e-9) << axis;
+    EXPECT_NEAR(box.half_axes()[axis], half, 1e-9) << axis;
   }
   EXPECT_NEAR(box.filled_by(points, 0.5), std::pow(12.0 / 5, 1.5) / (4.0 / 3 * std::numbers::pi), 1e-9);
   EXPECT_FALSE(box.is_bar()) << "1.5 times as long as wide";

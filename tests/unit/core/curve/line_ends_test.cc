@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -48,6 +49,20 @@ TEST(LineEnds, ALineThatTurnsToACornerGoesStraightOn) {
   EXPECT_NEAR(drawn(bar(), 10, {0.9, 0.9, 9.9})[0].z, 10, kSpacing);
 }
 
+// Five times as wide as thick: the tip lies aside in the end's edge, and the line leads there and on as before.
+TEST(LineEnds, OfAPlateIsInTheMiddleOfItsEdge) {
+  Mesh plate = make_box(10, 2, 20, 4);
+  for (Vec3& p : plate.points) p = p - Vec3{5, 1, 0};
+  std::vector<Vec3> places;
+  for (double z = 19; z > 0; z -= kSpacing)
+    places.push_back({1.8 * std::clamp((z - 16.5) / 1.5, 0.0, 1.0), 0, z});
+  std::vector<std::uint32_t> line(places.size());
+  std::iota(line.begin(), line.end(), 0U);
+  draw_end({LimbSurface(plate), kSpacing, line, 0, {1.8, 0, 19}}, places);
+  EXPECT_NEAR(places[0].x, 0, 0.1);
+  EXPECT_NEAR(places[0].z, 20, kSpacing);
+}
+
 // Of three radii, as an arm of a T that is no longer than wide.
 TEST(LineEnds, AShortLineThatTurnsToACornerGoesStraightOn) {
   for (const double length : {3.4, 4.2})
@@ -81,25 +96,32 @@ TEST(LineEnds, OfALimbThatTurnsIsTheCentreOfItsEnd) {
     }
 }
 
-// About a circle of four and five radii, as fingers are: within two radii of its end it turns as far as into a corner.
+// About a circle of so many radii, from a radius of 1 to the last.
+void expect_end_of_bent_limb(double bend, double degrees, double last) {
+  std::vector<Vec3> middle{{0, 0, -10}};
+  for (double part = 0; part <= 1; part += 1. / 64) {
+    const double turn = part * degrees * std::numbers::pi / 180;
+    middle.push_back({bend * (1 - std::cos(turn)), 0, bend * std::sin(turn)});
+  }
+  std::vector<Tube> tubes;
+  for (std::size_t n = 0; n + 1 < middle.size(); ++n) {
+    const double part = std::max(0.0, (static_cast<double>(n) - 1) / 64);
+    tubes.push_back({middle[n], middle[n + 1], 1 + part * (last - 1)});
+  }
+  std::vector<Vec3> places(middle.rbegin(), middle.rend() - 1);
+  for (double z = -kSpacing; z > -9; z -= kSpacing) places.push_back({0, 0, z});
+  std::vector<std::uint32_t> line(places.size());
+  std::iota(line.begin(), line.end(), 0U);
+  const Vec3 end = middle.back(), way = unit(end - middle[middle.size() - 2]);
+  draw_end({LimbSurface(tube_mesh(tubes, 0.2)), kSpacing, line, 0, end + way}, places);
+  EXPECT_LT(norm(places[0] - end), 0.35) << bend << ' ' << degrees << ' ' << last;
+}
+
+// As fingers and horns are: within two radii of its end it turns as far as into a corner.
 TEST(LineEnds, OfALimbThatBendsIsTheCentreOfItsEnd) {
   for (const double bend : {4., 5.})
-    for (const double degrees : {45., 90., 135.}) {
-      std::vector<Vec3> middle{{0, 0, -10}};
-      for (double part = 0; part <= 1; part += 1. / 64) {
-        const double turn = part * degrees * std::numbers::pi / 180;
-        middle.push_back({bend * (1 - std::cos(turn)), 0, bend * std::sin(turn)});
-      }
-      std::vector<Tube> tubes;
-      for (std::size_t n = 0; n + 1 < middle.size(); ++n) tubes.push_back({middle[n], middle[n + 1], 1});
-      std::vector<Vec3> places(middle.rbegin(), middle.rend() - 1);
-      for (double z = -kSpacing; z > -9; z -= kSpacing) places.push_back({0, 0, z});
-      std::vector<std::uint32_t> line(places.size());
-      std::iota(line.begin(), line.end(), 0U);
-      const Vec3 end = middle.back(), way = unit(end - middle[middle.size() - 2]);
-      draw_end({LimbSurface(tube_mesh(tubes, 0.2)), kSpacing, line, 0, end + way}, places);
-      EXPECT_LT(norm(places[0] - end), 0.35) << bend << ' ' << degrees;
-    }
+    for (const double degrees : {45., 90., 135.})
+      for (const double last : {1., 0.7}) expect_end_of_bent_limb(bend, degrees, last);
 }
 
 // A head on a neck: it is no bar.
