@@ -74,7 +74,7 @@ void add_looks(CLI::App* command, RenderCommandOptions& options) {
                    "--operator, --threshold and --no-mesh")
       ->check(one_of({"E", "part", "thickness"}))
       ->capture_default_str()
-      ->type_name("");
+      ->type_name("WHAT");
   command->add_flag("--no-mesh", options.no_mesh, "Leave out the body's surface");
   command->add_option("--background", options.background, "white, black, dark, #RGB or #RRGGBB")
       ->capture_default_str()
