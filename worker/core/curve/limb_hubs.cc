@@ -207,7 +207,7 @@ class FindHubs {
     while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) has[line[--first]] = 0;
   }
 
-  // Across the thickest limb, too: a stretch of a limb that ends near a branch is a ball as thick.
+  // By its volume and across: that of a limb that ends near a branch is as great as a thicker ball's.
   bool is_thick(const Candidate& found, const std::array<double, 3>& axes, double count) const {
     std::vector<double> sizes;
     const auto has = [&](std::uint32_t v) { return found.has[v] != 0; };
