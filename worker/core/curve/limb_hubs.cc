@@ -15,12 +15,13 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kThick = 1.55;       // times as thick as all its limbs but the thickest
-constexpr double kThicker = 1.4;      // times as thick as the thickest
-constexpr double kAcross = 1.3;       // times the thickest, its second axis: of a stretch of a tube 1.23
-constexpr double kLack = 2;           // of what a hub has, for each that its ellipsoid lacks
-constexpr double kTaken = 1.2;        // times what lies in its ellipsoid, with all that its limbs leave it
-constexpr double kOfTube = 1.1;       // times a limb's own sections: where they are larger, a hub begins
+constexpr double kThick = 1.55;   // times as thick as all its limbs but the thickest
+constexpr double kThicker = 1.4;  // times as thick as the thickest
+constexpr double kAcross = 1.3;   // times the thickest, its second axis: of a stretch of a tube 1.23
+constexpr double kLack = 2;       // of what a hub has, for each that its ellipsoid lacks
+constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
+constexpr double kOfTube = 1.1;   // times a limb's own sections: where they are larger, a hub begins
+constexpr double kTaper = 0.2;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
 constexpr double kScales[] = {1, 2};  // of the ellipsoid of a body, to begin with
 constexpr int kSteps = 100;           // bodies settle in 1 to 54
@@ -186,25 +187,46 @@ class FindHubs {
     });
   }
 
-  // Of a line from a hub on, what has sections as beyond is a limb's, and where these grow suddenly it is the hub's, over as
-  // much as the limb is thick.
+  // Of a line from a hub on, what has sections as beyond, or as they taper there, is a limb's, and where these grow suddenly
+  // it is the hub's, over as much as the limb is thick.
   void part_by_sections(const std::vector<std::uint32_t>& line, std::vector<char>& has) const {
     const std::size_t last =
         is_joint(line.back()) ? line.size() / 2 : line.size();  // beyond, a link leads to another
     std::size_t first = 0;
     while (first < last && has[line[first]] != 0) ++first;
-    std::vector<double> sections;
-    for (std::size_t n = first; n < last && has[line[n]] == 0; ++n) sections.push_back(in_.section[line[n]]);
-    if (sections.empty()) return;
-    const double own = median(std::move(sections)),
-                 begin = length_of(in_.places, std::span(line).first(first + 1));
-    const auto is_near = [&] {
-      return length_of(in_.places, std::span(line).first(first + 1)) - begin < own;
+    std::size_t end = first;
+    while (end < last && has[line[end]] == 0) ++end;
+    if (end == first) return;
+    const Taper own = taper_of(std::span(line).subspan(first, end - first));
+    double beyond = 0;  // of the ellipsoid
+    for (; first < line.size() / 2 && has[line[first]] == 0 && beyond < own.radius &&
+           grows_at(in_.places, line, first, in_.section);
+         ++first) {
+      has[line[first]] = 1;
+      beyond += norm(in_.places[line[first]] - in_.places[line[first + 1]]);
+    }
+    for (double way = own.way - beyond; first > 1; has[line[--first]] = 0) {
+      way += norm(in_.places[line[first]] - in_.places[line[first - 1]]);
+      if (in_.section[line[first - 1]] > kOfTube * (own.radius + own.slope * way)) return;
+    }
+  }
+
+  // A limb's sections: their median, and how they grow towards its hub, by those of its halves.
+  struct Taper {
+    double radius;
+    double way;  // from the limb's end at the hub to where it is as thick
+    double slope;
+  };
+  Taper taper_of(std::span<const std::uint32_t> limb) const {
+    const auto median_of = [&](std::span<const std::uint32_t> some) {
+      std::vector<double> sections;
+      for (const std::uint32_t v : some) sections.push_back(in_.section[v]);
+      return median(std::move(sections));
     };
-    while (first < line.size() / 2 && has[line[first]] == 0 && is_near() &&
-           grows_at(in_.places, line, first, in_.section))
-      has[line[first++]] = 1;
-    while (first > 1 && in_.section[line[first - 1]] <= kOfTube * own) has[line[--first]] = 0;
+    const double length = length_of(in_.places, limb);
+    if (limb.size() < 4) return {median_of(limb), length / 2, 0};
+    const double growth = median_of(limb.first(limb.size() / 2)) - median_of(limb.last(limb.size() / 2));
+    return {median_of(limb), length / 2, std::clamp(growth / (length / 2), 0.0, kTaper)};
   }
 
   // By its volume and across: that of a limb that ends near a branch is as great as a thicker ball's.

@@ -38,7 +38,7 @@ struct LimbHubsInput {
 /// to each vertex.  From every body of what no limb has (see parted_lines()), as far as it touches, with what lies within half
 /// the radius of its joints, and from twice its ellipsoid, this is taken anew until it stays: once all, and once without the
 /// outer half of limbs that end free and are longer than it is thick, as a palm would take its forearm.  Its limbs begin where they leave the ellipsoid, or within,
-/// where their sections are as beyond, or beyond, where these suddenly grow.
+/// where their sections are as beyond, or as they taper there, or beyond, where these suddenly grow.
 ///
 /// It is a hub if what they leave
 /// - is 1.4 times as thick, as a ball, as the thickest limb and 1.55 times as the others,
