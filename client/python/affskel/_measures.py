@@ -21,8 +21,8 @@ NUMBERS = ("length", "straight_length", "volume", "volume_share", "surface_area"
 class Measures(Saveable):
     """The solid, parted by the branches of its curve skeleton.  p parts, m triangles, R sample points.
 
-    Parts count from 1: row 0 of every array is part 1, the one with the greatest volume; volumes that are about equal
-    are in the order of their places.  Volumes and areas add up to the solid's.
+    Parts count from 1: row 0 of every array is part 1.  The greatest volume comes first, but in a row of parts that have
+    each at least 95 % of the one before they are in the order of their places.  Volumes and areas add up to the solid's.
 
     Attributes:
         kinds: of each part: "limb" (one end is free), "line" (both), "link" (none), "loop" (it closes), "point"
