@@ -191,12 +191,13 @@ class Points(Saveable):
     """Points of a skeleton, or of an eroded solid.
 
     Attributes:
-        points: (n, 3).  For "chords" they lie on lattice edges, otherwise they are sample points.
+        points: (n, 3).  Of "ridge" and "curve" the vertices of `Job.skeleton`, of "chords" the shocks on lattice edges,
+            not the vertices; otherwise sample points.
         E: (n,) erosion level.
-        normals: (n, 3) optimal normals, unit.
+        normals: (n, 3) optimal normals, unit, of sheets and curves those of a sample point beside the place.
         direction: (n,) index of the optimal direction; empty for the infimum over all directions.
-        H: (n,) the operator's divergence of the normals, for "chords" the strength of the shock; empty for an eroded
-            solid.
+        H: (n,) the operator's divergence of the normals, for "ridge", "curve" and "chords" the strength; empty for an
+            eroded solid.
         quality: what the skeleton is like, by the names of SkeletonQuality in the contract; empty for an eroded solid.
     """
 
