@@ -247,8 +247,7 @@ class Surface(Saveable):
             the ratio of its two curvatures, the kind (0 ridge surface, 1 ridge curve, 2 membrane, 3 way) and the part of
             the solid (see Measures); both have the barrier where it was asked for.  "curve" has what "ridge" has and
             distance (to the solid's surface), share (of the volume, what is nearest to the vertex), beyond (what a cut
-            there parts from the rest) and radius (of the limb).  Eroded solids have E and area; alpha shapes have none,
-            the points that they are made of carry them (`Job.skeleton_points`).
+            there parts from the rest) and radius (of the limb).  Eroded solids and alpha shapes have E and area.
         quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
         segments: (k, 2) indices of vertices: all of "curve", of "ridge" in the middle of limbs and between its parts;
