@@ -67,7 +67,8 @@ void add_measure(CommandLine& line) {
       "  affskel-client measure @last -o limbs.csv\n"
       "  affskel-client measure @last --threshold 3        # long limbs alone\n"
       "A part is a branch of the curve with what of the solid is nearest to it, the\n"
-      "largest first, about equal ones by their places: limbs end freely, links join limbs, loops close, a line ends\n"
+      "largest first, but by their places in a row where each has 95 % of the one before\n"
+      "or more: limbs end freely, links join limbs, loops close, a line ends\n"
       "freely at both ends; a point is the body that others hang on, its radius that of a ball as large, or a solid\n"
       "without limbs.  Lengths are in the units of the mesh, without what of a line runs within such a body; angles\n"
       "are those with the heaviest part at the joint, 180 where they lie straight",

@@ -102,7 +102,8 @@ void add_render(CommandLine& line) {
       "  affskel-client render @last --camera 30,20 --level 5% -o eroded.png\n"
       "  affskel-client render @last --operator zucker-hummel -o points.png\n"
       "  affskel-client render @last --colour part -o parts.png\n"
-      "A skeleton by ridge or chords is drawn as its sheet, any other as its points",
+      "A skeleton by ridge or chords is drawn as its sheet, by curve\n"
+      "as its lines, any other as its points",
       [options](Context& context) { run_render(context, *options); }, check_options);
   add_job(command, options->job);
   add_skeleton_options(command, options->picture.skeleton);

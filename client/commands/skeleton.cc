@@ -60,7 +60,9 @@ void add_skeleton(CommandLine& line) {
       "  affskel-client skeleton @last --operator zucker-hummel -o points.csv\n"
       "  affskel-client skeleton @last --operator sobel --as complex -o shape.ply\n"
       ".vtp, .ply and .obj hold sheets with their curves, .off and .stl sheets alone,\n"
-      ".csv and .xyz the vertices, .swc .json .graphml .glb those of --operator curve.\n"
+      ".csv and .xyz the vertices, of chords the shocks on lattice edges, .csv with the\n"
+      "optimal normal nx ny nz at a sample point beside them; .swc .json .graphml .glb\n"
+      "are for --operator curve.\n"
       "The published operators (zucker-hummel, sobel, central, intermediate, flux)\n"
       "give points, or as complex their alpha shape",
       [options](Context& context) { run_skeleton(context, *options); }, check_options);

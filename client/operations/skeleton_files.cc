@@ -227,9 +227,9 @@ Fetched fetch_curve(Session& session, const FetchRequest& request) {
   fetched.quality = curve.quality;
   fetched.notices = skeleton_notices(vertices, curve.quality, header.job());
   if (output.format() == FileFormat::kSwc && curve.quality.holes() > 0)
-    fetched.notices.push_back(warning(
-        "CUT_LOOPS",
-        ".swc holds trees: " + base::counted(curve.quality.holes(), "loop") + " cut where it closes"));
+    fetched.notices.push_back(
+        warning("CUT_LOOPS", ".swc holds trees: " + base::counted(curve.quality.holes(), "loop") +
+                                 " cut where " + (curve.quality.holes() == 1 ? "it closes" : "they close")));
   return fetched;
 }
 

@@ -43,8 +43,10 @@ Derived derived_artifact(const JobRow& job, const wire::ArtifactKindInfo& kind,
 }
 
 std::string progress_of(const JobRow& job) {
-  return wire::word(job.state) + ", stage " + wire::word(job.stage) + ", " +
-         std::to_string(job.directions_done) + " of " + std::to_string(job.directions) + " directions";
+  const std::string stage = wire::word(job.state) + ", stage " + wire::word(job.stage);
+  return job.directions == 0 ? stage
+                             : stage + ", " + std::to_string(job.directions_done) + " of " +
+                                   std::to_string(job.directions) + " directions";
 }
 
 /// Why the job has no such thing, and whether waiting helps.

@@ -153,6 +153,16 @@ class Errors(WithDirectory):
         with self.assertRaisesRegex(affskel.UnreachableError, r"address from \$AFFSKEL_SERVER"):
             os.environ["AFFSKEL_SERVER"] = f"unix:{self.directory / 'none.sock'}"
             affskel.jobs()
+        from affskel import _programs, _settings
+        nowhere = _settings.choose(f"unix:{self.directory / 'none.sock'}", {}, {})
+        with self.assertRaisesRegex(affskel.UnreachableError, "address from the argument server"):
+            _programs.run_program(nowhere, ["list"], "")
+
+    def test_an_isovalue_of_arrays_names_the_mesh(self):
+        client = self.client(self.server(workers=0))
+        with self.assertRaisesRegex(affskel.BadInputError, "^the mesh is no image of voxels"):
+            client.submit(([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]),
+                          points=100, isovalue=3)
 
     def test_the_server_tells_what_it_tells_affskel_client(self):
         server = self.server(workers=0)

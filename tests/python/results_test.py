@@ -161,7 +161,8 @@ class AgainstTheFiles(unittest.TestCase):
             self.assertEqual([part["kind"] for part in file["parts"]], list(table["kind"]))
             for name, column in (("length_units", "length"), ("volume_units3", "volume"), ("angle_degrees", "angle"),
                                  ("surface_area_units2", "surface_area"), ("mean_radius_units", "mean_radius"),
-                                 ("to_x", "to_x"), ("from_z", "from_z")):
+                                 ("to_x", "to_x"), ("from_z", "from_z"),
+                                 ("straightness", "straightness")):
                 expected = [np.nan if part[name] is None else part[name] for part in file["parts"]]
                 np.testing.assert_array_equal(table[column], expected, name)
             whole = measures.whole

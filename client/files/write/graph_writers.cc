@@ -124,6 +124,8 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
   for (const char* name : {"x", "y", "z", "E", "radius", "distance", "volume_share"})
     xml.key("node", name, "double");
+  xml.key("node", "degree", "int");
+  for (const char* of : {"node", "edge"}) xml.key(of, "part", "int");
   for (const char* name : {"length", "straight_length", "length_in_bodies", "volume_share", "mean_radius",
                            "least_radius", "greatest_radius"})
     xml.key("edge", name, "double");
@@ -140,7 +142,11 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
     xml.data("node", "z", at.z);
     for (const char* name : {"E", "radius", "distance"})
       xml.data("node", name, curve_column(shape, name)[graph.nodes[n]]);
-    if (bodies[n] != nullptr) xml.data("node", "volume_share", bodies[n]->share);
+    xml.data("node", "degree", std::to_string(graph.degree[n]));
+    if (bodies[n] != nullptr) {
+      xml.data("node", "part", std::to_string(bodies[n] - graph.branches.data() + 1));
+      xml.data("node", "volume_share", bodies[n]->share);
+    }
     write("    </node>\n");
   }
   for (std::size_t b = 0; b < graph.branches.size(); ++b) {
@@ -148,6 +154,7 @@ void write_curve_graphml(const ShapeFile& shape, const std::vector<std::string>&
     if (branch.kind == core::BranchKind::kPoint) continue;
     write("    <edge id=\"b" + std::to_string(b) + "\" source=\"n" + std::to_string(branch.from) +
           "\" target=\"n" + std::to_string(branch.to) + "\">\n");
+    if (branch.share > 0) xml.data("edge", "part", std::to_string(b + 1));
     xml.data("edge", "length", branch.length);
     xml.data("edge", "straight_length", branch.straight_length);
     xml.data("edge", "length_in_bodies", length_in_bodies(shape, branch));

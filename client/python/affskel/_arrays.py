@@ -191,12 +191,13 @@ class Points(Saveable):
     """Points of a skeleton, or of an eroded solid.
 
     Attributes:
-        points: (n, 3).  For "chords" they lie on lattice edges, otherwise they are sample points.
+        points: (n, 3).  Of "ridge" and "curve" the vertices of `Job.skeleton`, of "chords" the shocks on lattice edges,
+            not the vertices; otherwise sample points.
         E: (n,) erosion level.
-        normals: (n, 3) optimal normals, unit.
+        normals: (n, 3) optimal normals, unit, of sheets and curves those of a sample point beside the place.
         direction: (n,) index of the optimal direction; empty for the infimum over all directions.
-        H: (n,) the operator's divergence of the normals, for "chords" the strength of the shock; empty for an eroded
-            solid.
+        H: (n,) the operator's divergence of the normals, for "ridge", "curve" and "chords" the strength; empty for an
+            eroded solid.
         quality: what the skeleton is like, by the names of SkeletonQuality in the contract; empty for an eroded solid.
     """
 
@@ -246,8 +247,7 @@ class Surface(Saveable):
             the ratio of its two curvatures, the kind (0 ridge surface, 1 ridge curve, 2 membrane, 3 way) and the part of
             the solid (see Measures); both have the barrier where it was asked for.  "curve" has what "ridge" has and
             distance (to the solid's surface), share (of the volume, what is nearest to the vertex), beyond (what a cut
-            there parts from the rest) and radius (of the limb).  Eroded solids have E and area; alpha shapes have none,
-            the points that they are made of carry them (`Job.skeleton_points`).
+            there parts from the rest) and radius (of the limb).  Eroded solids and alpha shapes have E and area.
         quality: of a sheet, by the names of SkeletonQuality in the contract; otherwise empty.
         volume: enclosed by the surface of an eroded solid; otherwise 0.
         segments: (k, 2) indices of vertices: all of "curve", of "ridge" in the middle of limbs and between its parts;

@@ -314,6 +314,8 @@ class Client:
                 message = _COMMANDS.sub(_own_way, error.message)
                 if given.file:
                     raise type(error)(message, file=error.file, line=error.line) from None
+                if message.startswith("is "):
+                    message = "the mesh " + message
                 raise type(error)(message.replace(file, "the mesh")) from None  # the caller has no such file
         job = Job(self._session, document["id"], bool(document["existed"]), given.file)
         with contextlib.suppress(AffskelError):  # the job is there whatever becomes of this call

@@ -224,8 +224,8 @@ class Job:
 
     def skeleton_points(self, operator: Optional[str] = None, threshold: Optional[float] = None, *,
                         timeout: Optional[float] = None) -> Points:
-        """The points of a published operator, with E, normals and H, or the vertices of a sheet; arguments as for
-        `skeleton`."""
+        """The points of a published operator, with E, normals and H, or of a sheet or curve those that Points tells;
+        arguments as for `skeleton`."""
         request = service.FetchArtifactRequest(job=self.id, kind=service.ARTIFACT_KIND_SKELETON)
         chosen = self._chosen(operator, threshold)
         if chosen is not None:

@@ -21,15 +21,15 @@ NUMBERS = ("length", "straight_length", "volume", "volume_share", "surface_area"
 class Measures(Saveable):
     """The solid, parted by the branches of its curve skeleton.  p parts, m triangles, R sample points.
 
-    Parts count from 1: row 0 of every array is part 1, the one with the greatest volume; volumes that are about equal
-    are in the order of their places.  Volumes and areas add up to the solid's.
+    Parts count from 1: row 0 of every array is part 1.  The greatest volume comes first, but in a row of parts that have
+    each at least 95 % of the one before they are in the order of their places.  Volumes and areas add up to the solid's.
 
     Attributes:
         kinds: of each part: "limb" (one end is free), "line" (both), "link" (none), "loop" (it closes), "point"
             (a ball, or a body that limbs hang on).
         numbers: (p,) each: length and straight_length of the branch, volume, volume_share, surface_area, mean_radius,
             least_radius, greatest_radius, angle (degrees, to the first other branch at `starts`: 180 goes straight on;
-            NaN without one).
+            NaN without one), straightness (straight_length / length; 1 of a point).
         starts, ends: (p, 3) where each branch hangs on, and its other end, of a limb the free one.
         branches: of each part the indices of its vertices in `curve`, from start to end.
         links: the same of lines between parts that lie within joints, whole: no part of the solid is theirs.
@@ -113,6 +113,8 @@ def measures_of(message: types.SolidParts) -> Measures:
     """Raises InternalError when the message contradicts itself."""
     parts = message.parts
     numbers = {name: np.array([getattr(part, name) for part in parts], np.float64) for name in NUMBERS}
+    length, straight = numbers["length"], numbers["straight_length"]
+    numbers["straightness"] = np.divide(straight, length, out=np.ones(len(parts)), where=length > 0)
     numbers["angle"][[not part.HasField("angle") for part in parts]] = np.nan
     curve, surface = surface_of(message.curve), surface_of(message.surface)
     branches: List[Ints] = [np.array(part.vertices, np.int64) for part in parts]

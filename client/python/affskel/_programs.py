@@ -37,13 +37,14 @@ def _arguments(settings: Settings) -> List[str]:
     return arguments
 
 
-def _error_in(lines: Sequence[str], exit_code: int) -> AffskelError:
-    """The error that affskel-client told on stderr as JSON."""
+def _error_in(lines: Sequence[str], exit_code: int, settings: Settings) -> AffskelError:
+    """The error that affskel-client told on stderr as JSON; of an address, where it was given to this package."""
     for line in reversed(lines):
         try:
             error = json.loads(line)["error"]
             kind = BY_CODE.get(error["code"], InternalError)
-            return kind(error["message"], file=error.get("file", ""), line=error.get("line", 0))
+            message = error["message"].replace("address from --server", f"address from {settings.origin}")
+            return kind(message, file=error.get("file", ""), line=error.get("line", 0))
         except (ValueError, KeyError, TypeError):
             continue
     return InternalError(f"{PROGRAM} ended with code {exit_code}: " + "\n".join(lines[-8:]))
@@ -65,7 +66,7 @@ def run_program(settings: Settings, arguments: Sequence[str], why: str,
                           check=False)
     lines = done.stderr.decode("utf-8", "replace").splitlines()
     if done.returncode != 0:
-        raise _error_in(lines, done.returncode)
+        raise _error_in(lines, done.returncode, settings)
     for line in lines:
         _log.log(logging.WARNING if line.startswith("warning:") else logging.INFO, "%s", line)
     document = json.loads(done.stdout)

@@ -240,7 +240,7 @@ TEST_F(ArtifactTest, RefusesParametersThatItWouldIgnore) {
 TEST_F(ArtifactTest, TellsWhyAJobThatHasEndedHasNoField) {
   const v1::Job job = submit();
   const v1::FetchArtifactRequest field = artifact_request(job.id(), v1::ARTIFACT_KIND_FIELD);
-  EXPECT_NE(refusal(field).find(" yet (queued"), std::string::npos) << refusal(field);
+  EXPECT_NE(refusal(field).find(" yet (queued, stage prepare)"), std::string::npos) << refusal(field);
   store_->cancel(job.id());
   EXPECT_NE(refusal(field).find("cancelled"), std::string::npos) << refusal(field);
   EXPECT_EQ(refusal(field).find("yet"), std::string::npos) << refusal(field);

@@ -338,7 +338,8 @@ ShapeFile parse_gltf(std::string_view bytes) {
   };
   std::vector<std::string_view> digits;
   json parsed = json::parse(number_digits(text, digits), counted, false);
-  if (!parsed.is_object() || !parsed.contains("asset")) fail_at(0, "is no glTF: its JSON has no 'asset'");
+  if (!parsed.is_object() || !parsed.contains("asset"))
+    fail_at(0, "is no glTF: its JSON has no 'asset'; of a curve's graph take the .vtp or .ply");
   return Gltf(std::move(parsed), std::move(digits), binary).run();
 }
 

@@ -14,6 +14,15 @@
 namespace affskel::client {
 namespace {
 
+// What GraphML tells by a key, in the order of the file.
+std::vector<int> told(const std::string& xml, const std::string& key) {
+  std::vector<int> values;
+  const std::string begin = "<data key=\"" + key + "\">";
+  for (std::size_t at = 0; (at = xml.find(begin, at)) != std::string::npos; ++at)
+    values.push_back(std::stoi(xml.substr(at + begin.size())));
+  return values;
+}
+
 // A fork of three lines, a loop by itself, and a place without a line.
 ShapeFile fork_and_loop() {
   ShapeFile shape;
@@ -90,6 +99,17 @@ TEST(CurveGraph, OfABodyWithLimbsHasTheirNumbersAsParts) {
   std::string xml;
   write_curve(FileFormat::kGraphMl, shape, {}, [&](std::string_view bytes) { xml += bytes; });
   EXPECT_NE(xml.find("<data key=\"node_volume_share\">0.5</data>"), std::string::npos) << xml;
+  const auto of_json = [&](const char* list, const char* name) {
+    std::vector<int> values;
+    for (const auto& one : file[list])
+      if (one.contains(name) && !one[name].is_null()) values.push_back(one[name]);
+    return values;
+  };
+  EXPECT_EQ(told(xml, "node_degree"), of_json("nodes", "degree"));
+  EXPECT_EQ(told(xml, "node_part"), of_json("nodes", "part"));
+  EXPECT_EQ(told(xml, "edge_part"), of_json("branches", "part"));
+  EXPECT_EQ(told(xml, "node_degree"), (std::vector<int>{1, 3, 1, 1, 2, 0}))
+      << "ends, the joint, the loop, a place";
   EXPECT_NE(xml.find("<data key=\"edge_length_in_bodies\">1</data>"), std::string::npos) << xml;
 }
 
