@@ -302,17 +302,33 @@ TEST(LimbHubs, AreOneOfTwoHalves) {
   expect_one_hub(body, one, other, 0.2);
 }
 
+// Of a cube with four limbs, 8 long, which have all beyond `end`.
+void expect_hub_until(double end, const Cube& cube) {
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  for (std::uint32_t v = 0; v < cube.places.size(); ++v)
+    EXPECT_EQ(found.of[v] == 0, norm(cube.places[v] - cube.middle) < end) << v;
+}
+
 // The ellipsoid of a cube reaches 2.84 from its middle.
 TEST(LimbHubs, EndWhereTheirLimbsHaveSectionsAsBeyond) {
   for (const double end : {2.25, 3.25}) {
     Cube cube;
     cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
     cube.open_until(end);
-    const LimbHubs found = cube.found();
-    ASSERT_EQ(found.hubs.size(), 1U);
-    for (std::uint32_t v = 0; v < cube.places.size(); ++v)
-      EXPECT_EQ(found.of[v] == 0, norm(cube.places[v] - cube.middle) < end) << v;
+    expect_hub_until(end, cube);
   }
+}
+
+// As fingers, and tines of a fork: at the hub they are half as thick again as in their middle.
+TEST(LimbHubs, EndWhereTheirLimbsTaperAsBeyond) {
+  Cube cube;
+  cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
+  for (const Vec3& at : cube.places) {
+    const double way = norm(at - cube.middle);
+    cube.section.push_back(way < 2.25 ? 1.9 : 0.5 + 0.1 * (8 - way));
+  }
+  expect_hub_until(2.25, cube);
 }
 
 // Noise makes forks in thin limbs to which no sample point is nearest.
