@@ -16,8 +16,8 @@ class Setting {
  public:
   bool quick = false;  ///< small sizes, for a test that everything works
   unsigned threads = 1;
-  /// Of steadiness and graphs: noises of each level; of these, of reach, looks, lattices and limbs: mesh files in the place
-  /// of solids of our own.
+  /// Of steadiness, noise and graphs: noises of each level; of these, of reach, looks, lattices and limbs: mesh files in the
+  /// place of solids of our own.
   unsigned seeds = 2;
   std::vector<std::string> meshes;
 

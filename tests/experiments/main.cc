@@ -99,8 +99,9 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", setting.seeds, "of steadiness, noise and graphs: noises of each level")
       ->check(CLI::Range(1U, 1000U))
       ->capture_default_str();
-  app.add_option("--mesh", setting.meshes,
-                 "of steadiness, reach, looks, lattices and limbs: files in the place of solids of our own")
+  app.add_option(
+         "--mesh", setting.meshes,
+         "of steadiness, noise, reach, looks, lattices and limbs: files in the place of solids of our own")
       ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
   try {

@@ -9,6 +9,7 @@
 #include "fields.h"
 #include "gallery.h"
 #include "job.h"
+#include "limb_ends.h"
 #include "sheet.h"
 #include "similarity_curves.h"
 
@@ -127,9 +128,10 @@ struct Shares {
 };
 
 // Rows of the means and the worst of all seeds.
-void study_seeds(const Setting& setting, std::uint32_t triangles, Table& table, Report& report) {
-  const core::Mesh& mesh = setting.body(triangles);
-  const double dt = setting.spacing(), radius = std::sqrt(3.0) * dt;
+void study_seeds(const Setting& setting, const NamedMesh& body, Table& table, Report& report) {
+  const core::Mesh& mesh = body.mesh;
+  const double dt = setting.spacing() / Setting::kBodyHeight * core::box_of(mesh).longest_side(),
+               radius = std::sqrt(3.0) * dt;
   const ChordPlaces clean = chord_places(mesh, dt, setting.threads);
   for (const Level& level : levels(mesh)) {
     std::array<Shares, 2> mean, worst{{{1, 1}, {1, 1}}};
@@ -142,12 +144,12 @@ void study_seeds(const Setting& setting, std::uint32_t triangles, Table& table, 
         worst[m] = {std::min(worst[m].there, one.there), std::min(worst[m].back, one.back)};
       }
     }
-    report.expect(format("noise of %s, body of %u, chords in the infimum: lesser mean share",
-                         level.name.c_str(), triangles),
+    report.expect(format("noise of %s, %s, chords in the infimum: lesser mean share", level.name.c_str(),
+                         body.name.c_str()),
                   std::min(mean[1].there, mean[1].back), level.min_share, 1);
     for (std::size_t m = 0; m < 2; ++m) {
-      table.rows.push_back({std::to_string(triangles), m == 0 ? "normals" : "infimum", level.name,
-                            mean[m].text(), worst[m].text()});
+      table.rows.push_back(
+          {body.name, m == 0 ? "normals" : "infimum", level.name, mean[m].text(), worst[m].text()});
     }
   }
 }
@@ -155,8 +157,9 @@ void study_seeds(const Setting& setting, std::uint32_t triangles, Table& table, 
 void chords_by_seeds(const Setting& setting, Report& report) {
   report.subsection(format("`chords` over the normals and in the infimum, %u seeds", setting.seeds));
   Table table{{"body", "E", "noise", "mean there / back", "worst there / back"}, {}};
-  study_seeds(setting, 292, table, report);
-  if (!setting.quick) study_seeds(setting, 1000, table, report);
+  for (const NamedMesh& body : bodies_to_compare(setting))
+    if (!setting.meshes.empty() || body.mesh.triangles.size() <= 1000)
+      study_seeds(setting, body, table, report);
   report.table(table);
 }
 
@@ -178,6 +181,7 @@ constexpr const char* kText =
 void noise_experiment(const Setting& setting, Report& report) {
   report.section("Noise (6.3, figures 6.15 to 6.17)");
   report.text(kText);
+  if (!setting.meshes.empty()) return chords_by_seeds(setting, report);
   const double dt = setting.spacing();
   struct Run {
     std::uint32_t triangles;
