@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include "base/number_text.h"
@@ -110,31 +113,32 @@ class LatticeBuilder {
         std::ceil(std::clamp(depth, 0.0, static_cast<double>(lattice_.grid.dims[2]))));
   }
 
+  struct OnLine {
+    std::uint32_t point;
+    std::uint32_t along;  // its lattice index along the line
+  };
+
   // Sorts the points into the lines of another axis and cuts these into runs.
   void fill_axis(int axis) {
     const auto a = static_cast<std::size_t>(axis);
     const LineCrossings lines = scan_convert(mesh_, lattice_.grid, axis, 1, options_.context);
     const std::size_t line_count = lines.begin.size() - 1;
     std::vector<std::uint32_t> begin(line_count + 1, 0);
-    for_each_point([&](std::uint32_t, const LatticeRun&, const std::array<std::uint32_t, 3>& at) {
-      ++begin[line_of(axis, at) + 1];
-    });
+    for_each_point(
+        [&](std::uint32_t, const std::array<std::uint32_t, 3>& at) { ++begin[line_of(axis, at) + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
     // Left uninitialised: filling so much memory can take seconds, in which the context is not asked.
-    const auto run_of = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
-    const auto order = std::make_unique_for_overwrite<std::uint32_t[]>(lattice_.points);
-    const LatticeRun* first_run = lattice_.axis[2].runs.data();
-    for_each_point([&](std::uint32_t point, const LatticeRun& run, const std::array<std::uint32_t, 3>& at) {
-      order[cursor[line_of(axis, at)]++] = point;
-      run_of[point] = static_cast<std::uint32_t>(&run - first_run);
+    const auto order = std::make_unique_for_overwrite<OnLine[]>(lattice_.points);
+    for_each_point([&](std::uint32_t point, const std::array<std::uint32_t, 3>& at) {
+      order[cursor[line_of(axis, at)]++] = {point, at[a]};
     });
     std::vector<std::uint32_t>& kept = lattice_.axis[a].order;
     kept.reserve(lattice_.points);
     StopCheck stop(options_.context);
     for (std::size_t line = 0; line < line_count; ++line) {
       stop.did(1 + begin[line + 1] - begin[line]);
-      cut_line(a, lines, line, order.get(), begin[line], begin[line + 1], run_of.get());
+      cut_line(a, lines, line, {order.get() + begin[line], order.get() + begin[line + 1]});
     }
   }
 
@@ -150,29 +154,30 @@ class LatticeBuilder {
     for (const LatticeRun& run : lattice_.axis[2].runs) {
       stop.did(run.length);
       std::array<std::uint32_t, 3> at = run.start;
-      for (std::uint32_t p = run.first; p < run.first + run.length; ++p, ++at[2]) visit(p, run, at);
+      for (std::uint32_t p = run.first; p < run.first + run.length; ++p, ++at[2]) visit(p, at);
     }
   }
 
   // Points come in lattice order, so each line's are ascending along the axis.
-  void cut_line(std::size_t a, const LineCrossings& lines, std::size_t line, const std::uint32_t* order,
-                std::uint32_t from, std::uint32_t to, const std::uint32_t* run_of) {
+  void cut_line(std::size_t a, const LineCrossings& lines, std::size_t line, std::span<const OnLine> points) {
     std::uint64_t next = lines.begin[line];
     const std::uint64_t end = lines.begin[line + 1];
+    const std::size_t u = (a + 1) % 3, v = (a + 2) % 3, width = lattice_.grid.dims[v];
+    std::array<std::uint32_t, 3> at{};
+    at[u] = static_cast<std::uint32_t>(line / width);
+    at[v] = static_cast<std::uint32_t>(line % width);
+    AxisRuns& axis = lattice_.axis[a];
     Passage passage;
     LatticeRun* open = nullptr;
-    for (std::uint32_t o = from; o < to; ++o) {
-      const std::uint32_t point = order[o];
-      const LatticeRun& column = lattice_.axis[2].runs[run_of[point]];
-      std::array<std::uint32_t, 3> at = column.start;
-      at[2] += point - column.first;
+    for (const OnLine& on_line : points) {
+      at[a] = on_line.along;
       for (; next < end && lines.crossings[next].depth <= at[a]; ++next) {
         passage.pass(lines.crossings[next]);
         open = nullptr;
       }
-      AxisRuns& axis = lattice_.axis[a];
       if (passage.winding <= 0 || next == end) {
-        axis.strays.push_back({point, 1, column.low, column.high, at});
+        const LatticeRun& column = column_of(on_line.point);
+        axis.strays.push_back({on_line.point, 1, column.low, column.high, at});
         open = nullptr;
         continue;
       }
@@ -182,8 +187,13 @@ class LatticeBuilder {
         open = &axis.runs.back();
       }
       ++open->length;
-      axis.order.push_back(point);
+      axis.order.push_back(on_line.point);
     }
+  }
+
+  // The run along axis 2 that has the point.
+  const LatticeRun& column_of(std::uint32_t point) const {
+    return *std::prev(std::ranges::upper_bound(lattice_.axis[2].runs, point, {}, &LatticeRun::first));
   }
 
   const Mesh& mesh_;

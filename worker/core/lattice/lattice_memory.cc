@@ -9,7 +9,7 @@ namespace {
 
 // Kept: the places of a point in the orders of axes 0 and 1.
 constexpr double kLatticeBytes = 8;
-// On the way, for one axis at least: its unsorted order, and the run of every point.
+// On the way, for one axis at least: its points line by line, each with its place on the line.
 constexpr double kBuildingBytes = 8;
 // The crossings' bookkeeping: where a line's begin, twice while they are sorted into it.
 constexpr double kLineBytes = 16;
