@@ -29,10 +29,6 @@ void record_end(Tx& tx, const JobRow& job, v1::JobState state, std::string messa
   tx.changes.counts.push_back([word](Metrics& metrics) { metrics.job_ended(word); });
 }
 
-std::string progress_text(const JobRow& job) {
-  return std::to_string(job.directions_done) + " of " + base::counted(job.directions, "direction");
-}
-
 void finish_field(Tx& tx, JobRow& job) {
   tx.db.run("UPDATE erosions SET finished = 1 WHERE id = ?", job.erosion_id);
   end_stage(tx, job.id);
@@ -124,6 +120,11 @@ bool go_on_or_fail(Tx& tx, JobRow& job) {
 }
 
 }  // namespace
+
+std::string progress_text(const JobRow& job) {
+  if (job.directions == 0) return {};
+  return std::to_string(job.directions_done) + " of " + base::counted(job.directions, "direction");
+}
 
 void fail_job(Tx& tx, const std::string& job_id, const v1::JobError& error) {
   const JobRow job = get_job(tx.db, job_id);

@@ -7,6 +7,9 @@
 
 namespace affskel::server {
 
+/// How many of a job's directions are done; empty before it is prepared, when there are none.
+std::string progress_text(const JobRow& job);
+
 /// A job's stage ends, and the next one, which the caller sets, begins: counts how long it took.
 void end_stage(Tx& tx, const std::string& job_id);
 

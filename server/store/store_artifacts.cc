@@ -7,6 +7,7 @@
 #include "base/logfmt.h"
 #include "database/errors.h"
 #include "store/job_events.h"
+#include "store/job_life.h"
 #include "store/quota.h"
 #include "store/store_impl.h"
 #include "store/task_rows.h"
@@ -43,10 +44,8 @@ Derived derived_artifact(const JobRow& job, const wire::ArtifactKindInfo& kind,
 }
 
 std::string progress_of(const JobRow& job) {
-  const std::string stage = wire::word(job.state) + ", stage " + wire::word(job.stage);
-  return job.directions == 0 ? stage
-                             : stage + ", " + std::to_string(job.directions_done) + " of " +
-                                   std::to_string(job.directions) + " directions";
+  const std::string done = progress_text(job);
+  return wire::word(job.state) + ", stage " + wire::word(job.stage) + (done.empty() ? "" : ", " + done);
 }
 
 /// Why the job has no such thing, and whether waiting helps.

@@ -26,9 +26,10 @@ struct Level {
 
 std::vector<Level> levels(const core::Mesh& mesh) {
   const double diagonal = core::box_diagonal(mesh);
-  return {{"1 unit", "#1b9e77", 1, 0.9},
-          {format("0.5 %% of the diagonal (%.0f units)", 0.005 * diagonal), "#d95f02", 0.005 * diagonal, 0.6},
-          {format("1 %% of the diagonal (%.0f units)", 0.01 * diagonal), "#7570b3", 0.01 * diagonal, 0.5}};
+  const double unit = core::box_of(mesh).longest_side() / Setting::kBodyHeight;
+  return {{unit == 1 ? "1 unit" : format("%.3g units", unit), "#1b9e77", unit, 0.9},
+          {format("0.5 %% of the diagonal (%.3g units)", 0.005 * diagonal), "#d95f02", 0.005 * diagonal, 0.6},
+          {format("1 %% of the diagonal (%.3g units)", 0.01 * diagonal), "#7570b3", 0.01 * diagonal, 0.5}};
 }
 
 // A body without noise, and with each level of it.
@@ -157,9 +158,12 @@ void study_seeds(const Setting& setting, const NamedMesh& body, Table& table, Re
 void chords_by_seeds(const Setting& setting, Report& report) {
   report.subsection(format("`chords` over the normals and in the infimum, %u seeds", setting.seeds));
   Table table{{"body", "E", "noise", "mean there / back", "worst there / back"}, {}};
-  for (const NamedMesh& body : bodies_to_compare(setting))
-    if (!setting.meshes.empty() || body.mesh.triangles.size() <= 1000)
-      study_seeds(setting, body, table, report);
+  std::vector<NamedMesh> bodies;
+  for (const std::uint32_t triangles : {292U, 1000U})
+    if (!setting.quick || bodies.empty())
+      bodies.push_back({format("body of %u", triangles), setting.body(triangles)});
+  if (!setting.meshes.empty()) bodies = bodies_to_compare(setting);
+  for (const NamedMesh& body : bodies) study_seeds(setting, body, table, report);
   report.table(table);
 }
 

@@ -3,6 +3,8 @@
 Usage: errors_test.py PROGRAMS PROJECT"""
 import json
 import os
+import pathlib
+import subprocess
 import sys
 import unittest
 
@@ -157,6 +159,12 @@ class Errors(WithDirectory):
         nowhere = _settings.choose(f"unix:{self.directory / 'none.sock'}", {}, {})
         with self.assertRaisesRegex(affskel.UnreachableError, "address from the argument server"):
             _programs.run_program(nowhere, ["list"], "")
+
+    def test_source_that_was_not_built_says_so(self):
+        source = pathlib.Path(__file__).parents[2] / "client" / "python"
+        found = subprocess.run([sys.executable, "-c", "import affskel"], env={**os.environ, "PYTHONPATH": str(source)},
+                               capture_output=True, text=True)
+        self.assertRegex(found.stderr, "ImportError: .*install it by pip")
 
     def test_an_isovalue_of_arrays_names_the_mesh(self):
         client = self.client(self.server(workers=0))

@@ -21,7 +21,7 @@ constexpr double kAcross = 1.3;   // times the thickest, its second axis: of a s
 constexpr double kLack = 2;       // of what a hub has, for each that its ellipsoid lacks
 constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
 constexpr double kOfTube = 1.1;   // times a limb's own sections: where they are larger, a hub begins
-constexpr double kTaper = 0.2;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
+constexpr double kTaper = 0.1;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
 constexpr double kScales[] = {1, 2};  // of the ellipsoid of a body, to begin with
 constexpr int kSteps = 100;           // bodies settle in 1 to 54
@@ -224,7 +224,7 @@ class FindHubs {
       return median(std::move(sections));
     };
     const double length = length_of(in_.places, limb);
-    if (limb.size() < 4) return {median_of(limb), length / 2, 0};
+    if (limb.size() < 6 || !(length > 0)) return {median_of(limb), length / 2, 0};
     const double growth = median_of(limb.first(limb.size() / 2)) - median_of(limb.last(limb.size() / 2));
     return {median_of(limb), length / 2, std::clamp(growth / (length / 2), 0.0, kTaper)};
   }

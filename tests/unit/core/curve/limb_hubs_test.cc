@@ -69,6 +69,14 @@ struct Cube : DrawnLines {
 
 const std::vector<Vec3> kCross{{0.1, 0, 0}, {0, 0.1, 0}, {-0.1, 0, 0}, {0, -0.1, 0}};
 
+// Of a cube with four limbs, 8 long, which have all beyond `end`.
+void expect_hub_until(double end, const Cube& cube) {
+  const LimbHubs found = cube.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  for (std::uint32_t v = 0; v < cube.places.size(); ++v)
+    EXPECT_EQ(found.of[v] == 0, norm(cube.places[v] - cube.middle) < end) << v;
+}
+
 TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
   Cube cube;
   const std::uint32_t joint = cube.add(cube.middle, 2);
@@ -84,8 +92,7 @@ TEST(LimbHubs, AreAsLargeAsWhatNoLimbHas) {
     for (const double off : {-0.1, 0.1})
       EXPECT_NEAR(hub.outside(cube.middle + (axis + off) * way), off, 0.02);
   EXPECT_LT(hub.outside(cube.middle), 0);
-  for (std::uint32_t v = 0; v < cube.places.size(); ++v)
-    EXPECT_EQ(found.at(v) == &hub, norm(cube.places[v] - cube.middle) < axis) << v;
+  expect_hub_until(axis, cube);
 }
 
 void expect_one_hub(const Cube& body, std::uint32_t one, std::uint32_t other, double tolerance) {
@@ -302,14 +309,6 @@ TEST(LimbHubs, AreOneOfTwoHalves) {
   expect_one_hub(body, one, other, 0.2);
 }
 
-// Of a cube with four limbs, 8 long, which have all beyond `end`.
-void expect_hub_until(double end, const Cube& cube) {
-  const LimbHubs found = cube.found();
-  ASSERT_EQ(found.hubs.size(), 1U);
-  for (std::uint32_t v = 0; v < cube.places.size(); ++v)
-    EXPECT_EQ(found.of[v] == 0, norm(cube.places[v] - cube.middle) < end) << v;
-}
-
 // The ellipsoid of a cube reaches 2.84 from its middle.
 TEST(LimbHubs, EndWhereTheirLimbsHaveSectionsAsBeyond) {
   for (const double end : {2.25, 3.25}) {
@@ -320,15 +319,17 @@ TEST(LimbHubs, EndWhereTheirLimbsHaveSectionsAsBeyond) {
   }
 }
 
-// As fingers, and tines of a fork: at the hub they are half as thick again as in their middle.
+// As fingers, and tines of a fork; what grows faster goes over into the body.
 TEST(LimbHubs, EndWhereTheirLimbsTaperAsBeyond) {
-  Cube cube;
-  cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
-  for (const Vec3& at : cube.places) {
-    const double way = norm(at - cube.middle);
-    cube.section.push_back(way < 2.25 ? 1.9 : 0.5 + 0.1 * (8 - way));
+  for (const double taper : {0.1, 0.3}) {
+    Cube cube;
+    cube.go_out(cube.add(cube.middle, 2), kCross, 2.2, 2, 3.5);
+    for (const Vec3& at : cube.places) {
+      const double way = norm(at - cube.middle);
+      cube.section.push_back(way < 2.25 ? 1.9 : 0.5 + taper * (8 - way));
+    }
+    expect_hub_until(taper < 0.2 ? 2.25 : 2.84, cube);
   }
-  expect_hub_until(2.25, cube);
 }
 
 // Noise makes forks in thin limbs to which no sample point is nearest.

@@ -79,6 +79,33 @@ TEST(MakeLattice, RunsOfAllAxesHoldEveryPointOnce) {
   }
 }
 
+// A lattice with places in the faces of a slanting box: rounding has them inside along one axis and outside along another.
+TEST(MakeLattice, StraysLieOnTheirRunOfAxis2) {
+  const Vec3 u{0.8, 0.36, 0.48}, v{-0.6, 0.48, 0.64}, w = cross(u, v);
+  Mesh box = make_box(1, 1, 1);
+  for (Vec3& p : box.points) p = (p.x - 0.5) * u + (p.y - 0.5) * v + (p.z - 0.5) * w;
+  const Solid solid = make_solid(box);
+  const double step = 0.1 / solid.scale();
+  LatticeGrid grid{{}, {step * u, step * v, step * w}, {11, 11, 11}};
+  grid.origin = -5.0 * (grid.axes[0] + grid.axes[1] + grid.axes[2]);
+  const Lattice lattice = make_lattice(solid, grid);
+  std::size_t strays = 0;
+  for (const int axis : {0, 1}) {
+    for (const LatticeRun& stray : lattice.axis[axis].strays) {
+      ++strays;
+      for (const LatticeRun& run : lattice.axis[2].runs) {
+        if (stray.first < run.first || stray.first >= run.first + run.length) continue;
+        EXPECT_EQ(stray.low, run.low);
+        EXPECT_EQ(stray.high, run.high);
+        const std::array<std::uint32_t, 3> place{run.start[0], run.start[1],
+                                                 run.start[2] + stray.first - run.first};
+        EXPECT_EQ(stray.start, place);
+      }
+    }
+  }
+  EXPECT_GT(strays, 0U);
+}
+
 TEST(MakeLattice, RunsEndAtTheSurface) {
   const double r = 1;
   const Solid solid = make_solid(make_sphere(r, 5120));

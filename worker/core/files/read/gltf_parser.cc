@@ -339,7 +339,9 @@ ShapeFile parse_gltf(std::string_view bytes) {
   std::vector<std::string_view> digits;
   json parsed = json::parse(number_digits(text, digits), counted, false);
   if (!parsed.is_object() || !parsed.contains("asset"))
-    fail_at(0, "is no glTF: its JSON has no 'asset'; of a curve's graph take the .vtp or .ply");
+    fail_at(0, parsed.is_object() && parsed.contains("branches")
+                   ? "is a curve's graph, no shape: its .vtp and .ply can be compared"
+                   : "is no glTF: its JSON has no 'asset'");
   return Gltf(std::move(parsed), std::move(digits), binary).run();
 }
 
