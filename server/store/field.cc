@@ -104,16 +104,11 @@ void RecordBatch::append(const v1::FieldRecords& records) {
   if (cleared_ + static_cast<std::int64_t>(records_.size()) + count > kMaxRecordsPerPoint * points_) {
     refuse_field("more than " + std::to_string(kMaxRecordsPerPoint) + " records per point");
   }
-  const auto record_at = [&](int i) {
-    return PointRecord{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
-  };
-  for (int i = 0; i < count; ++i) require_possible(record_at(i));
-  const std::size_t before = records_.size();
-  records_.resize(before + static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    PointRecord& record = records_[before + static_cast<std::size_t>(i)];
-    record = record_at(i);
+    PointRecord record{records.erosion(i), records.area(i), records.direction(i), records.point(i)};
+    require_possible(record);
     record.area += 0.0;  // one zero only: equal values must be equal bytes, whatever the order of merging
+    records_.push_back(record);
   }
 }
 

@@ -112,6 +112,8 @@ PreparedJob::PreparedJob(std::string_view mesh_bytes, const v1::ErosionParams& p
                          core::ExecutionContext* context, const std::function<std::uint64_t()>& available,
                          double derive_bytes)
     : solid_(read_solid(mesh_bytes, params, threads, context, polygons_cut_)),
+      volume_unit_(std::ldexp(1.0, 3 * solid_.exponent)),
+      area_unit_(std::ldexp(1.0, 2 * solid_.exponent)),
       frame_(core::solid_frame(solid_, frame_kind(params.frame()), context)),
       lattice_(lay_lattice(solid_, params, frame_, threads, context, available, derive_bytes)),
       directions_(take_directions(solid_, params.directions(), frame_)) {}
@@ -185,13 +187,6 @@ v1::Directions PreparedJob::directions_message() const {
   message.mutable_xyz()->Reserve(static_cast<int>(3 * directions_.size()));
   for (const core::Vec3& d : directions_) add(d, message.mutable_xyz());
   return message;
-}
-
-double PreparedJob::volume_unit() const {
-  return std::ldexp(1.0, 3 * solid_.exponent);
-}
-double PreparedJob::area_unit() const {
-  return std::ldexp(1.0, 2 * solid_.exponent);
 }
 
 wire::FieldRecord PreparedJob::record(const core::FieldValue& value) const {

@@ -56,8 +56,8 @@ class PreparedJob {
   bool has_refinement() const { return refinement_ != nullptr; }
 
   /// Mesh units cubed per scaled unit cubed, and squared.
-  double volume_unit() const;
-  double area_unit() const;
+  double volume_unit() const { return volume_unit_; }
+  double area_unit() const { return area_unit_; }
 
   /// A value as the server has it.  E is greater than 0 inside: where nothing that doubles resolve is left,
   /// at a tip, it is the least normal number.
@@ -66,6 +66,7 @@ class PreparedJob {
  private:
   std::uint64_t polygons_cut_ = 0;  // before solid_, whose making sets it
   core::Solid solid_;
+  double volume_unit_, area_unit_;
   core::Matrix3 frame_;
   core::Lattice lattice_;
   core::DirectionSet directions_;
