@@ -3,6 +3,7 @@
 #include <string>
 
 #include "affskel/v1/types.pb.h"
+#include "store/rows.h"
 #include "store/tx.h"
 
 namespace affskel::server {
