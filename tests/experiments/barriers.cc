@@ -7,7 +7,6 @@
 
 #include "core/base/matrix3.h"
 #include "core/base/stopwatch.h"
-#include "core/chords/chord_sheet.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice_coordinates.h"
 #include "core/ridge/ridge_sheet.h"
@@ -15,6 +14,7 @@
 #include "experiments.h"
 #include "gallery.h"
 #include "job.h"
+#include "sheet.h"
 
 namespace affskel::experiments {
 namespace {
@@ -66,8 +66,7 @@ Result measure(const std::string& solid, const std::string& operator_name, const
 std::vector<Result> measure_both(const std::string& solid, const Job& job, const Setting& setting) {
   const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
   const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
-  return {measure(solid, "`chords`", job,
-                  core::chord_sheet(job.solid, job.lattice, field, {.over_set = job.over_set}), setting),
+  return {measure(solid, "`chords`", job, chord_sheet(job, field), setting),
           measure(solid, "`ridge`", job, core::ridge_sheet(job.solid, job.lattice, field, basis), setting)};
 }
 

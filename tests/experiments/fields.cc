@@ -41,6 +41,7 @@ void Fields::go_on() {
   job_.over_set = false;
   for (std::uint32_t p = 0; p < least.size(); ++p) {
     job_.directions.push_back(least[p].normal);
+    job_.saddles.push_back(least[p].saddles);
     put(p, {least[p].erosion, least[p].slope, p});
   }
 }

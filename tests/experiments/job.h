@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -29,6 +30,7 @@ struct Job {
   core::Lattice lattice;
   core::DirectionSet directions;
   bool over_set = true;                  ///< whether the values are the least of these directions, or of all
+  std::vector<std::array<std::uint32_t, 2>> saddles;  ///< of all: per sample point core::LeastChord::saddles
   std::vector<core::FieldValue> values;  ///< per sample point
   double seconds = 0;                    ///< from the mesh to the field, wall time
 

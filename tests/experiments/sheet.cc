@@ -1,7 +1,7 @@
 #include "sheet.h"
 
-#include "core/chords/chord_sheet.h"
 #include "core/erosion/frame_field.h"
+#include "core/infimum/piece_input.h"
 #include "core/quality/sheet_topology.h"
 #include "core/ridge/ridge_sheet.h"
 
@@ -36,10 +36,16 @@ Cloud cloud_of(const Points& points, const InFrame& in_frame) {
 
 }  // namespace
 
+core::ChordSheet chord_sheet(const Job& job, const core::FrameField& field) {
+  if (job.over_set) return core::chord_sheet(job.solid, job.lattice, field);
+  const core::PieceInput input(job.solid);
+  const core::RefinedPieces refined{input, job.saddles};
+  return core::chord_sheet(job.solid, job.lattice, field, {.refined = &refined});
+}
+
 Sheet chord_sheet_of(const Job& job) {
   const InFrame in_frame(job);
-  const core::ChordSheet found =
-      core::chord_sheet(job.solid, job.lattice, in_frame.field, {.over_set = job.over_set});
+  const core::ChordSheet found = chord_sheet(job, in_frame.field);
   Sheet sheet;
   sheet.points = cloud_of(found.shocks, in_frame);
   for (const core::SheetVertex& vertex : found.vertices)

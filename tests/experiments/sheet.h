@@ -1,6 +1,8 @@
 #pragma once
 
+#include "core/chords/chord_sheet.h"
 #include "core/contour/sheet_mesh.h"
+#include "core/erosion/frame_field.h"
 #include "core/mesh/mesh.h"
 #include "core/solid/betti_numbers.h"
 #include "job.h"
@@ -15,6 +17,9 @@ struct Sheet {
   std::vector<core::SkeletonKind> kind;  ///< of `ridge`: of each vertex
   core::BettiNumbers betti;              ///< of both
 };
+
+/// The sheet of a job's field, in the frame's coordinates; over all directions with shocks at equal chords.
+core::ChordSheet chord_sheet(const Job& job, const core::FrameField& field);
 
 /// With the operator's default options.
 Sheet chord_sheet_of(const Job& job);

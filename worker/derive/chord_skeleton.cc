@@ -1,6 +1,9 @@
 #include "derive/chord_skeleton.h"
 
+#include <optional>
+
 #include "core/chords/chord_sheet.h"
+#include "core/infimum/piece_input.h"
 #include "core/quality/skeleton_advice.h"
 #include "core/quality/skeleton_quality.h"
 #include "core/ridge/local_depth.h"
@@ -11,18 +14,32 @@
 namespace affskel::worker {
 namespace {
 
-core::ChordSheetOptions chord_options_for(const FinishedField& field, double threshold) {
-  core::ChordSheetOptions options;
-  options.context = field.context();
-  options.over_set = field.over_set();
-  if (threshold != 0) options.significance = threshold;
-  return options;
+double significance_of(double threshold) {
+  return threshold != 0 ? threshold : core::ChordSheetOptions().significance;
 }
 
-core::ChordSheet sheet_of(const FinishedField& field, const core::FrameField& in_frame, double threshold) {
-  return core::chord_sheet(field.job().solid(), field.lattice(), in_frame,
-                           chord_options_for(field, threshold));
-}
+// Makes the sheets of one field.
+class Sheets {
+ public:
+  explicit Sheets(const FinishedField& field) : field_(field) {
+    if (field.over_set()) return;
+    input_.emplace(field.job().solid(), field.threads());
+    refined_.emplace(core::RefinedPieces{*input_, field.saddles(), field.threads()});
+  }
+
+  core::ChordSheet at(double significance) const {
+    core::ChordSheetOptions options;
+    options.context = field_.context();
+    options.refined = refined_ ? &*refined_ : nullptr;
+    options.significance = significance;
+    return core::chord_sheet(field_.job().solid(), field_.lattice(), field_.in_frame(), options);
+  }
+
+ private:
+  const FinishedField& field_;
+  std::optional<core::PieceInput> input_;
+  std::optional<core::RefinedPieces> refined_;
+};
 
 void report_stray(const FinishedField& field, const core::ChordSheet& sheet, v1::SkeletonQuality& message) {
   std::vector<core::Vec3> places;
@@ -42,11 +59,10 @@ void report_stray(const FinishedField& field, const core::ChordSheet& sheet, v1:
 }
 
 // @param points the shocks, when they are the skeleton's points; null: the sheet's vertices are.
-v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::FrameField& in_frame,
-                                     const core::ChordSheet& sheet, double threshold,
+v1::SkeletonQuality chord_quality_of(const FinishedField& field, const Sheets& sheets,
+                                     const core::ChordSheet& sheet, double significance,
                                      const std::vector<core::Vec3>* points,
                                      const SheetBarriers& barriers = {}) {
-  const double significance = chord_options_for(field, threshold).significance;
   const double next = core::next_threshold(significance);
   core::SheetQualityOptions options;
   options.advice_if_empty = core::empty_sheet_advice(field.lattice(), sheet.census, significance,
@@ -55,7 +71,7 @@ v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::Fra
   options.points = points;
   core::Mesh other;
   if (next < 1 && !barriers.cut) {
-    other = mesh_of(sheet_of(field, in_frame, next));
+    other = mesh_of(sheets.at(next));
     options.other = &other;
     options.other_threshold = next;
   }
@@ -71,8 +87,9 @@ v1::SkeletonQuality chord_quality_of(const FinishedField& field, const core::Fra
 }  // namespace
 
 v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::SkeletonParams& params) {
-  const core::FrameField& in_frame = field.in_frame();
-  const core::ChordSheet sheet = sheet_of(field, in_frame, params.threshold());
+  const double significance = significance_of(params.threshold());
+  const Sheets sheets(field);
+  const core::ChordSheet sheet = sheets.at(significance);
   v1::SkeletonPoints message;
   std::vector<core::Vec3> points;
   for (const core::ChordShock& shock : sheet.shocks) {
@@ -84,14 +101,14 @@ v1::SkeletonPoints chord_skeleton(const FinishedField& field, const v1::Skeleton
     if (field.over_set()) message.add_direction(shock.direction_low);
     message.add_divergence(shock.strength);
   }
-  *message.mutable_quality() = chord_quality_of(field, in_frame, sheet, params.threshold(), &points);
+  *message.mutable_quality() = chord_quality_of(field, sheets, sheet, significance, &points);
   return message;
 }
 
 v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams& params) {
-  const double threshold = params.skeleton().threshold();
-  const core::FrameField& in_frame = field.in_frame();
-  core::ChordSheet sheet = sheet_of(field, in_frame, threshold);
+  const double significance = significance_of(params.skeleton().threshold());
+  const Sheets sheets(field);
+  core::ChordSheet sheet = sheets.at(significance);
   std::vector<core::Segment> none;
   const SheetBarriers barriers = take_barriers(field, params, sheet, none);
   v1::TriangleMesh message;
@@ -105,7 +122,7 @@ v1::TriangleMesh chord_sheet(const FinishedField& field, const v1::SurfaceParams
   }
   message.mutable_barrier()->Add(barriers.barrier.begin(), barriers.barrier.end());
   append_corners(mesh_of(sheet), message);
-  *message.mutable_quality() = chord_quality_of(field, in_frame, sheet, threshold, nullptr, barriers);
+  *message.mutable_quality() = chord_quality_of(field, sheets, sheet, significance, nullptr, barriers);
   return message;
 }
 

@@ -22,7 +22,9 @@ FieldValues refined_field(const PreparedJob& job, std::string_view stored) {
                           "the stored refined field has " + std::to_string(stored.size()) + " bytes for " +
                               std::to_string(points) + " points");
   }
-  FieldValues field{false, {}, {}};
+  FieldValues field;
+  field.over_set = false;
+  field.saddles.reserve(points);
   field.values.reserve(points);
   field.directions.reserve(points);
   for (std::uint32_t p = 0; p < points; ++p) {
@@ -30,6 +32,7 @@ FieldValues refined_field(const PreparedJob& job, std::string_view stored) {
         wire::decode_refined_record(stored.data() + std::size_t{p} * wire::kRefinedRecordBytes);
     field.values.push_back({record.erosion, record.slope, p});
     field.directions.push_back({record.normal[0], record.normal[1], record.normal[2]});
+    field.saddles.push_back(record.saddles);
   }
   return field;
 }
@@ -42,6 +45,7 @@ FinishedField::FinishedField(const PreparedJob& job, FieldValues field, core::Ex
       own_(known == nullptr ? std::make_unique<KnownRidges>() : nullptr),
       known_(known == nullptr ? own_.get() : known),
       over_set_(field.over_set),
+      saddles_(std::move(field.saddles)),
       in_frame_(core::frame_field(job.lattice(), field.directions, field.values)),
       directions_(std::move(field.directions)),
       frame_directions_(core::frame_directions(job.lattice(), directions_)),

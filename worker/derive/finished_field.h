@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,8 @@ struct FieldValues {
   /// Per sample point; the area is the slope |grad E|.
   std::vector<core::FieldValue> values;
   core::DirectionSet directions;  ///< that the values name
+  /// Over all directions, per sample point: core::LeastChord::saddles.
+  std::vector<std::array<std::uint32_t, 2>> saddles = {};
 };
 
 /// A field over the job's set of directions.
@@ -49,6 +53,8 @@ class FinishedField {
   const core::Lattice& lattice() const { return job_.lattice(); }
   /// Whether its directions are those of the job's set.
   bool over_set() const { return over_set_; }
+  /// Over all directions, per sample point: core::LeastChord::saddles.
+  const std::vector<std::array<std::uint32_t, 2>>& saddles() const { return saddles_; }
   /// How many more directions the job's set has than its mesh triangles; 0 where it has fewer.
   std::size_t more_directions() const;
   /// The directions that the values name as unit normals in the lattice's frame.
@@ -75,6 +81,7 @@ class FinishedField {
   std::unique_ptr<KnownRidges> own_;
   KnownRidges* known_;
   bool over_set_;
+  std::vector<std::array<std::uint32_t, 2>> saddles_;
   core::FrameField in_frame_;  // what the values say, kept once
   core::DirectionSet directions_, frame_directions_;
   core::SamplePlaces places_;

@@ -58,8 +58,9 @@ SheetBarriers take_barriers(const FinishedField& field, const v1::SurfaceParams&
   if (!params.barrier()) return result;
   std::vector<core::SheetPlace> places;
   places.reserve(sheet.vertices.size());
-  for (const auto& v : sheet.vertices)
-    places.push_back(sheet_place(field, v.position, v.normal_a, v.normal_b));
+  for (const core::SheetVertex& v : sheet.vertices)
+    places.push_back(v.turns ? core::SheetPlace{}  // which has none
+                             : sheet_place(field, v.position, v.normal_a, v.normal_b));
   result.barrier = barriers_at(field, places);
   if (params.min_barrier() == 0 || sheet.vertices.empty()) return result;
   const std::vector<core::Triangle> all = sheet.triangles;

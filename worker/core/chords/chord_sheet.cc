@@ -26,6 +26,7 @@ class VertexValues {
     const Vec3 reference = first.gradient_low - first.gradient_high;
     const double share = 1 / static_cast<double>(members.size());
     SheetVertex v;
+    v.turns = std::ranges::all_of(members, [&](std::uint32_t s) { return shocks_[s].turns; });
     for (std::uint32_t s : members) {
       const ChordShock& shock = shocks_[s];
       const bool turned = dot(shock.gradient_low - shock.gradient_high, reference) < 0;
@@ -94,7 +95,7 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   const SolidParts parts(solid, lattice);
   std::vector<ChordShock> candidates = chord_shocks(lattice, field);
   throw_if_stopped(options.context);
-  ChordConstants constants = options.over_set ? ChordConstants() : constants_of_infimum();
+  ChordConstants constants = options.refined == nullptr ? ChordConstants() : constants_of_infimum();
   measure_turns(lattice, parts, field, candidates, options.context, constants);
   throw_if_stopped(options.context);
   constants.strong_turn = strong_turn(candidates, constants);
@@ -104,6 +105,9 @@ ChordSheet chord_sheet(const Solid& solid, const Lattice& lattice, const FrameFi
   sheet.strong_turn = constants.strong_turn;
   throw_if_stopped(options.context);
   close_pinholes(lattice, parts, field, sheet.shocks);
+  if (options.refined != nullptr) {
+    place_at_equal_chords(solid, lattice, field, *options.refined, sheet.shocks, options.context);
+  }
   contour(lattice, parts, options, sheet);
   return sheet;
 }

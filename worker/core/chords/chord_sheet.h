@@ -6,6 +6,7 @@
 #include "core/base/execution_context.h"
 #include "core/chords/chord_pruning.h"
 #include "core/chords/chord_shocks.h"
+#include "core/chords/equal_chords.h"
 #include "core/contour/sheet_mesh.h"
 #include "core/erosion/frame_field.h"
 #include "core/lattice/lattice.h"
@@ -15,7 +16,7 @@ namespace affskel::core {
 
 struct ChordSheetOptions {
   double significance = 0.005;  ///< the threshold of `chords`, see significant_shocks()
-  bool over_set = true;         ///< whether the field is the least of a finite set, or over all directions
+  const RefinedPieces* refined = nullptr;  ///< of a field over all directions; null: it is the least of a finite set
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers
 };
 
@@ -26,7 +27,8 @@ struct ChordSheet : SheetMesh, SignificantShocks {
 
 /// The significant shocks joined into a sheet by dual contouring (Ju, Losasso, Schaefer and Warren 2002): one
 /// vertex for every lattice cell with shocks on its edges, one quadrilateral for every shock, through the
-/// vertices of the four cells round its edge, cut along its shorter diagonal.  README.md in worker/core tells
+/// vertices of the four cells round its edge, cut along its shorter diagonal.  Over all directions shocks lie
+/// where the two chords are equal, as far as there are two (place_at_equal_chords).  README.md in worker/core tells
 /// how and why.
 ///
 /// Vertices and shocks lie in the solid, vertices in their cells too; triangles need not.  The sheet ends at

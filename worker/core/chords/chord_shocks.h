@@ -29,6 +29,9 @@ struct ChordShock {
   double turn = 0;  ///< opening over a band across the sheet, see measure_turns(); until then o
   Vec3 gradient_low, gradient_high;  ///< g_x and g_y; the sheet's normal is along their difference
   std::uint32_t direction_low = 0, direction_high = 0;  ///< indices of the two optimal directions
+  /// Over all directions: its planes lead to one piece, so that it is no shock in the strict sense; see
+  /// place_at_equal_chords().
+  bool turns = false;
 };
 
 /// The shocks of E on all lattice edges between neighbouring sample points of one stretch (Zografos 2003,

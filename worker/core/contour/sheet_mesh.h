@@ -25,6 +25,7 @@ struct SheetVertex {
   double ratio = 0;         ///< of `ridge`: lambda_2 / lambda_1, see ridge_crossings()
   double roundness = 0;     ///< of `ridge`: lambda_3 / lambda_1, see ridge_crossings()
   SkeletonKind kind = SkeletonKind::kRidge;
+  bool turns = false;  ///< of `chords`: no strict shock is near, see ChordShock::turns
 };
 
 /// A sheet of triangles, which may have one side only, with rims and branches, and curves.

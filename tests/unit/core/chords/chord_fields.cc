@@ -32,7 +32,8 @@ LatticeGrid frame_round(const Solid& solid, const std::array<Vec3, 3>& axes) {
   return grid;
 }
 
-FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string& spec, bool refined) {
+FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string& spec, bool refined,
+                  std::vector<std::array<std::uint32_t, 2>>& saddles) {
   DirectionSet directions = make_directions(solid, spec);
   Erosion erosion(solid, lattice, directions, {});
   std::vector<std::uint32_t> list(directions.size());
@@ -46,6 +47,7 @@ FrameField eroded(const Solid& solid, const Lattice& lattice, const std::string&
     directions.assign(least.size(), {});
     for (std::uint32_t p = 0; p < lattice.points; ++p) {
       directions[p] = least[p].normal;
+      saddles.push_back(least[p].saddles);
       values[p] = {least[p].erosion, least[p].slope, p};
     }
   }
@@ -96,7 +98,7 @@ ErodedSolid::ErodedSolid(const Mesh& mesh, const std::array<Vec3, 3>& axes, cons
                          bool refined)
     : solid(make_solid(mesh)),
       lattice(make_lattice(solid, frame_round(solid, axes))),
-      field(eroded(solid, lattice, directions, refined)) {}
+      field(eroded(solid, lattice, directions, refined, saddles)) {}
 
 Vec3 ErodedSolid::place(const Vec3& u) const {
   const SamplePlaces places(solid, lattice);

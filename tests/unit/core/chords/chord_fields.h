@@ -42,6 +42,7 @@ std::array<Vec3, 3> cubic_axes(double h);
 struct ErodedSolid {
   Solid solid;
   Lattice lattice;
+  std::vector<std::array<std::uint32_t, 2>> saddles;  ///< of a refined field, per sample point
   FrameField field;
 
   /// @param axes of the lattice, mesh units; its points fill the solid's bounding box, centred.

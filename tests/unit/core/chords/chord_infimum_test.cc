@@ -12,7 +12,9 @@ namespace affskel::core {
 namespace {
 
 ChordSheet sheet_of(const ErodedSolid& eroded) {
-  return chord_sheet(eroded.solid, eroded.lattice, eroded.field, {.over_set = false});
+  const PieceInput input(eroded.solid);
+  const RefinedPieces refined{input, eroded.saddles};
+  return chord_sheet(eroded.solid, eroded.lattice, eroded.field, {.refined = &refined});
 }
 
 // The level sets of a ball's E are spheres: only the centre is a shock, however fine the lattice is.
