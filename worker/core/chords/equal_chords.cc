@@ -1,6 +1,6 @@
 // Notation.  The edge is p(t) = x + t delta, 0 <= t <= 1; a and b are the least pieces of its ends, followed to p(t):
-// a(t), b(t) their volumes, slopes along the edge da, db.  At x a is the lesser one, at y b is.  Where a(t) - b(t) is
-// 0 lies the shock.
+// a(t), b(t) their volumes.  At x a is the lesser one, at y b is.  Where a(t) - b(t) changes its sign lies the shock:
+// mostly it is 0 there; but a volume may jump past the other, where a part joins its piece.
 #include "core/chords/equal_chords.h"
 
 #include <algorithm>
@@ -41,29 +41,31 @@ class EdgeOfShock {
         start_(scaled_place(lattice, vector_of(shock.place))),
         way_(lattice.grid.axes[shock.axis]) {}
 
+  // The pieces at the shock; none where there is but one.
   // @param a, b least pieces of the two ends.  @param t where to look first.
   std::optional<Pair> equal_pieces(LeastChord a, LeastChord b, double t) {
+    std::optional<Pair> known;
     double low = 0, high = 1;
     int halvings = 0;
     for (int n = 0; n < kMaxSteps && high - low > kShort; ++n) {
       const std::optional<Pair> there = follow(a, b, t);
-      if (!there) return {};
+      if (!there) break;
       if (is_one(*there)) {
-        if (++halvings > kMaxHalvings) return {};
-        // Whose piece is it?
-        const bool of_b = dot(there->a.normal, b.normal) > dot(there->a.normal, a.normal);
-        (of_b ? high : low) = t;
+        if (++halvings > kMaxHalvings) break;
+        const bool is_b = dot(there->a.normal, b.normal) > dot(there->a.normal, a.normal);
+        (is_b ? high : low) = t;
         t = 0.5 * (low + high);
         continue;
       }
+      known = there;
+      if (there->equal()) break;
       a = there->a;
       b = there->b;
-      if (there->equal()) return there;
       (there->difference() < 0 ? low : high) = t;
       const double newton = t - there->difference() / (slope(a) - slope(b));
       t = newton > low && newton < high ? newton : 0.5 * (low + high);
     }
-    return {};
+    return known;
   }
 
  private:

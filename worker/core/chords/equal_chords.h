@@ -21,14 +21,15 @@ struct RefinedPieces {
   unsigned threads = 1;                                 ///< >= 1; the result does not depend on it
 };
 
-/// Moves shocks to where the two chords are equal, without extrapolation.
+/// Moves shocks to where the two chords are equal, without extrapolation (Zografos 2003, section 3.4: points with two
+/// equal optimal chords).
 ///
 /// The optimal planes of the edge's two ends are two minima of f(d) = chord(p, d).  Both are followed from their ends
 /// to places p on the edge (ChordDescent), each beyond the place where it is the least one, by Newton's method on the
-/// difference of their volumes, whose derivative is known (see README.md in worker/core).  The shock gets that place,
-/// with E and the two gradients there.  One whose two planes lead to one piece wherever they are looked at, since the
-/// normals between them turn and nowhere jump, stays where the tangents cross
-/// and `turns`.
+/// difference of their volumes, whose derivative is known (see README.md in worker/core).  The shock gets the place
+/// where they are equal, to 1e-9 of E, or where the greater jumps below the lesser, with E and the two gradients there.
+/// One whose two planes lead to one piece wherever they are looked at, since the normals between them turn and
+/// nowhere jump, stays where the tangents cross, and `turns` is set.
 /// @param field over all directions, of this lattice.
 /// @param shocks of this field.
 /// @throws CoreError kCancelled when the context asks to stop.
