@@ -12,6 +12,7 @@
 #include "core/ridge/ridge_sheet.h"
 #include "core/shapes/shapes.h"
 #include "experiments.h"
+#include "fields.h"
 #include "gallery.h"
 #include "job.h"
 #include "sheet.h"
@@ -50,9 +51,13 @@ Result measure(const std::string& solid, const std::string& operator_name, const
   options.threads = setting.threads;
   const core::Matrix3 normals = core::inverse_transposed(options.frame);
   std::vector<core::SheetPlace> asked;
-  for (const auto& v : sheet.vertices) {
+  for (const core::SheetVertex& v : sheet.vertices) {
     const core::Vec3 a = normals * v.normal_a, b = normals * v.normal_b;
     r.mesh.points.push_back(places.origin() + options.frame * v.position);
+    if (v.turns) {
+      asked.emplace_back();
+      continue;
+    }
     asked.push_back({core::scaled_place(job.lattice, (1 / job.lattice.spacing) * v.position),
                      (1 / core::norm(a)) * a, (1 / core::norm(b)) * b});
   }
@@ -68,6 +73,15 @@ std::vector<Result> measure_both(const std::string& solid, const Job& job, const
   const core::RidgeBasis basis = core::ridge_basis(job.solid, job.lattice, field);
   return {measure(solid, "`chords`", job, chord_sheet(job, field), setting),
           measure(solid, "`ridge`", job, core::ridge_sheet(job.solid, job.lattice, field, basis), setting)};
+}
+
+Result measure_infimum(const std::string& solid, const core::Mesh& mesh, double spacing,
+                       const Setting& setting) {
+  Fields fields(mesh, grid_round(mesh, spacing), kSeeds, setting.threads);
+  fields.go_on();
+  const Job& job = fields.job();
+  const core::FrameField field = core::frame_field(job.lattice, job.directions, job.values);
+  return measure(solid, "`chords`, infimum", job, chord_sheet(job, field), setting);
 }
 
 core::Mesh elliptic_cylinder(std::uint32_t sides) {
@@ -146,9 +160,13 @@ void barrier_experiment(const Setting& setting, Report& report) {
   };
   add(format("body of %u triangles", triangles), body, 0.75 * dt, "triangles");
   add("limb: elliptic cylinder 2:1", elliptic_cylinder(setting.quick ? 24 : 48), dt, "triangles+" + sphere);
-  add("ellipsoid 3:2:1", core::make_ellipsoid(3600, 2400, 1200, setting.quick ? 320 : 1280), dt, "triangles");
+  const core::Mesh ellipsoid = core::make_ellipsoid(3600, 2400, 1200, setting.quick ? 320 : 1280);
+  add("ellipsoid 3:2:1", ellipsoid, dt, "triangles");
   add("box 6:3:1", core::make_box(7200, 3600, 1200), dt, sphere);
   add("tetrahedron", core::make_tetrahedron(7200), dt, sphere);
+  results.push_back(measure_infimum(format("body of %u triangles", triangles), body, 0.75 * dt, setting));
+  results.push_back(measure_infimum("ellipsoid 3:2:1", ellipsoid, dt, setting));
+  results.push_back(measure_infimum("tetrahedron", core::make_tetrahedron(7200), dt, setting));
   report.section("Jumps and fast turns: the barrier between the two sides of a sheet");
   Table table{{"solid", "sheet", "vertices", "barrier below 0.1 %", "below 1 %", "below 5 %", "15 % and more",
                "median", "greatest", "time"},
@@ -166,11 +184,14 @@ void barrier_experiment(const Setting& setting, Report& report) {
     const std::string what = r.solid + ", " + r.operator_name;
     if (r.solid == "tetrahedron") continue;
     const bool smooth = r.solid.find("body") == std::string::npos;
+    if (!smooth && r.operator_name.find("infimum") != std::string::npos) continue;
     report.expect(what + format(": share of barriers below %g", grain), r.share_below(grain),
                   smooth ? 0.99 : 0.3, 1);
   }
   // At its centroid 5/27 and nowhere more.
   report.expect("tetrahedron, `chords`: greatest barrier", results[8].quantile(1), 0.1, 5.0 / 27 + grain);
+  report.expect("tetrahedron, `chords`, infimum: greatest barrier", results.back().quantile(1), 0.1,
+                5.0 / 27 + grain);
 }
 
 }  // namespace affskel::experiments
