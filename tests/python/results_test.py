@@ -99,6 +99,8 @@ class AgainstTheFiles(unittest.TestCase):
         self.assertEqual(set(field.saddles.tolist()), {0, 1, 2})
         self.assertEqual(len(job.skeleton_points().direction), 0)
         self.assertGreater(len(job.skeleton()), 10)
+        barrier = job.skeleton("chords", barrier=True).attributes["barrier"]
+        self.assertEqual((np.sum(barrier == 0) > 9, np.sum(barrier > .05) > 9, np.sum(barrier < 0)), (True, True, 0))
         self.assertGreater(job.status().refine_round, 1)
 
     def test_skeleton_points_are_those_of_the_csv(self):

@@ -39,5 +39,22 @@ TEST(ChordsOfInfimum, ATorusOfFewTrianglesGivesTheWholeFlatAnnulus) {
   EXPECT_GT(sheet.shocks.size(), 1.15 * static_cast<double>(with_share.shocks.size()));
 }
 
+// In an ellipsoid the normals turn and nowhere jump; half-way up a triangular prism they jump from wall to wall.
+TEST(ChordsOfInfimum, ASheetTellsWhereNormalsOnlyTurn) {
+  const ErodedSolid ellipsoid(make_ellipsoid(3, 2, 1, 1280), cubic_axes(0.17), "sphere:100", true);
+  for (const SheetVertex& v : sheet_of(ellipsoid).vertices) EXPECT_TRUE(v.turns);
+  const ErodedSolid prism(make_cylinder(1, 4, 3), cubic_axes(0.13), "sphere:100", true);
+  const ChordSheet sheet = sheet_of(prism);
+  for (const SheetVertex& v : chord_sheet(prism.solid, prism.lattice, prism.field).vertices) EXPECT_FALSE(v.turns);
+  std::size_t jumping = 0;
+  for (const SheetVertex& v : sheet.vertices) {
+    const Vec3 p = prism.place(v.position);
+    if (std::abs(p.z - 2) > 0.35 || std::hypot(p.x, p.y) > 0.15) continue;
+    ++jumping;
+    EXPECT_FALSE(v.turns);
+  }
+  EXPECT_GT(jumping, 10U);
+}
+
 }  // namespace
 }  // namespace affskel::core
