@@ -29,10 +29,10 @@ struct Job {
   core::Solid solid;
   core::Lattice lattice;
   core::DirectionSet directions;
-  bool over_set = true;                  ///< whether the values are the least of these directions, or of all
+  bool over_set = true;  ///< whether the values are the least of these directions, or of all
   std::vector<std::array<std::uint32_t, 2>> saddles;  ///< of all: per sample point core::LeastChord::saddles
-  std::vector<core::FieldValue> values;  ///< per sample point
-  double seconds = 0;                    ///< from the mesh to the field, wall time
+  std::vector<core::FieldValue> values;               ///< per sample point
+  double seconds = 0;                                 ///< from the mesh to the field, wall time
 
   /// Largest E in the field as a share of v0.
   double highest_share() const;

@@ -37,11 +37,14 @@ struct ChordConstants {
 };
 
 /// Of a field over all directions.  Its normals have no facets beside the sheet that a small jump would belong to; a
-/// peak must be sharper instead, which keeps smooth ridges from being taken for shocks.
+/// peak must be more concentrated instead, which keeps smooth ridges from being taken for shocks.  Nor need a peak be
+/// stronger than one half, from which on it is none between two facets of one side.
 constexpr ChordConstants constants_of_infimum() {
   ChordConstants constants;
   constants.min_share = 0;
   constants.min_concentration = 0.3;
+  constants.min_peak_strength = 0.5;
+  constants.strong_turn = 0.44;
   return constants;
 }
 

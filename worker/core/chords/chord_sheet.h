@@ -16,7 +16,8 @@ namespace affskel::core {
 
 struct ChordSheetOptions {
   double significance = 0.005;  ///< the threshold of `chords`, see significant_shocks()
-  const RefinedPieces* refined = nullptr;  ///< of a field over all directions; null: it is the least of a finite set
+  const RefinedPieces* refined =
+      nullptr;  ///< of a field over all directions; null: it is the least of a finite set
   ExecutionContext* context = nullptr;  ///< asked whether to stop, between the steps and layers
 };
 

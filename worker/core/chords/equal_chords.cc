@@ -18,7 +18,7 @@
 namespace affskel::core {
 namespace {
 
-constexpr std::size_t kBlock = 256; // shocks that a thread takes at once
+constexpr std::size_t kBlock = 256;  // shocks that a thread takes at once
 constexpr int kMaxSteps = 24;
 constexpr int kMaxHalvings = 6;  // of the edge, in search of a place where both pieces are known
 constexpr double kEqual = 1e-9;  // of the volume: how equal the two are

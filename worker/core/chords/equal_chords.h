@@ -16,9 +16,9 @@ namespace affskel::core {
 
 /// What a field over all directions knows of the least pieces beyond E and its gradient.
 struct RefinedPieces {
-  const PieceInput& input;                              ///< of the solid
+  const PieceInput& input;                                ///< of the solid
   std::span<const std::array<std::uint32_t, 2>> saddles;  ///< per sample point: LeastChord::saddles
-  unsigned threads = 1;                                 ///< >= 1; the result does not depend on it
+  unsigned threads = 1;                                   ///< >= 1; the result does not depend on it
 };
 
 /// Moves shocks to where the two chords are equal, without extrapolation (Zografos 2003, section 3.4: points with two

@@ -45,7 +45,8 @@ TEST(ChordsOfInfimum, ASheetTellsWhereNormalsOnlyTurn) {
   for (const SheetVertex& v : sheet_of(ellipsoid).vertices) EXPECT_TRUE(v.turns);
   const ErodedSolid prism(make_cylinder(1, 4, 3), cubic_axes(0.13), "sphere:100", true);
   const ChordSheet sheet = sheet_of(prism);
-  for (const SheetVertex& v : chord_sheet(prism.solid, prism.lattice, prism.field).vertices) EXPECT_FALSE(v.turns);
+  for (const SheetVertex& v : chord_sheet(prism.solid, prism.lattice, prism.field).vertices)
+    EXPECT_FALSE(v.turns);
   std::size_t jumping = 0;
   for (const SheetVertex& v : sheet.vertices) {
     const Vec3 p = prism.place(v.position);

@@ -28,8 +28,8 @@ struct Placed {
 
   std::vector<ChordShock> placed(unsigned threads) const {
     std::vector<ChordShock> shocks = crossing;
-    place_at_equal_chords(eroded.solid, eroded.lattice, eroded.field, {input, eroded.saddles, threads}, shocks,
-                          nullptr);
+    place_at_equal_chords(eroded.solid, eroded.lattice, eroded.field, {input, eroded.saddles, threads},
+                          shocks, nullptr);
     return shocks;
   }
 
@@ -95,7 +95,8 @@ TEST(EqualChords, TellEAndBothGradientsAtTheirPlace) {
     for (const Vec3& gradient : {shock.gradient_low, shock.gradient_high}) {
       const Vec3 x = scaled_from_frame(placed.eroded.lattice, shock.position);
       const LeastChord piece = descent.descend(x, {.normal = unit(gradient)});
-      EXPECT_NEAR(std::ldexp(piece.erosion, 3 * placed.eroded.solid.exponent) / volume, shock.erosion / volume, 1e-9);
+      EXPECT_NEAR(std::ldexp(piece.erosion, 3 * placed.eroded.solid.exponent) / volume,
+                  shock.erosion / volume, 1e-9);
       EXPECT_NEAR(std::ldexp(piece.slope, 2 * placed.eroded.solid.exponent) / norm(gradient), 1, 1e-4);
     }
   }
