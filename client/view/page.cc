@@ -252,6 +252,7 @@ ordered_json facts_of(const ViewModel& model, const core::Box& box, const Scale&
           {"points", prepared.points()},
           {"pointsHere", model.points.size()},
           {"directions", prepared.directions()},
+          {"minimum", minimum_word(model.job.params().minimum())},
           {"spacing", prepared.spacing()},
           {"volume", prepared.volume()},
           {"box", components(size)},

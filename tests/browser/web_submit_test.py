@@ -258,7 +258,7 @@ class Submitting(OnThePage):
         # About as many at once, then as the lattice counts, within a tenth.
         page.wait(lambda: re.search("(9[0-9]{2}|1,0[0-9]{2}) sample points", page.find("#lattice").text))
         page.type("#points", "1e")
-        page.wait(lambda: "Give a number above 0." in page.find("#lattice").text)
+        page.wait(lambda: "Sample points: a number above 0." in page.find("#lattice").text)
 
     def test_an_image_of_voxels_is_asked_for_the_value_at_its_surface(self):
         def inner(n):

@@ -37,3 +37,13 @@ test('a job of several files each has the name that the service has read', async
   await view.takeAll([new File(['OFF'], 'a\tb.off'), new File(['OFF'], 'c.off.gz')]);
   assert.deepEqual(asked.map((one) => [one.mesh, one.name]), [['mesh of a b.off', 'a b'], ['mesh of c.off.gz', 'c']]);
 });
+
+test('the page of a new job makes a call now and then, so that a private server stays', async () => {
+  const paths = [];
+  globalThis.fetch = async (path) => {
+    paths.push(path);
+    return new Response(JSON.stringify({ jobs: [], more: false }));
+  };
+  assert.equal(await new NewJob().ask(new AbortController().signal), false);
+  assert.deepEqual(paths, ['/api/jobs?limit=1']);
+});

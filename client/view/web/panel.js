@@ -10,7 +10,7 @@ function factsOf(model) {
   return {
     triangles: whole(model.triangles),
     points: whole(model.points),
-    directions: whole(model.directions),
+    directions: model.minimum === 'infimum' ? 'all' : whole(model.directions),
     spacing: rounded(model.spacing, 5),
     v0: rounded(model.volume),
     frame: model.frame,

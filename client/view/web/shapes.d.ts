@@ -18,6 +18,7 @@ interface ModelFacts {
   points: number;
   pointsHere: number;
   directions: number;
+  minimum: string;
   spacing: number;
   volume: number;
   box: Triple;

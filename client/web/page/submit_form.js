@@ -183,7 +183,7 @@ export class SubmitForm {
     clearTimeout(this.timer);
     if (this.counting) this.counting.abort();
     if (!(value > 0)) {
-      setText(this.lattice, 'Give a number above 0.');
+      setText(this.lattice, `${which === 'points' ? 'Sample points' : 'Their spacing'}: a number above 0.`);
       return;
     }
     const { volume } = this.mesh.facts;

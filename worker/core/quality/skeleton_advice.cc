@@ -196,7 +196,7 @@ Advice small_skeleton_advice(const Lattice& lattice, std::span<const float> radi
   if (depth <= 1) {
     return with_more_points(
         lattice,
-        "all sample points lie next to the surface, two across the solid where it is thickest: "
+        "all sample points lie next to the surface, at most two across the solid where it is thickest: "
         "too few to tell its middle.");
   }
   const double across = std::cbrt(static_cast<double>(lattice.points));

@@ -38,8 +38,10 @@ std::string short_text(double value) {
   return base::rounded(value, 4);
 }
 
+// What is rounding beside the others is 0.
 std::string place_text(const Vec3& p) {
-  return "(" + short_text(p.x) + ", " + short_text(p.y) + ", " + short_text(p.z) + ")";
+  const auto text = [least = 1e-12 * norm(p)](double c) { return short_text(std::abs(c) < least ? 0 : c); };
+  return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
 }
 
 class Mending {

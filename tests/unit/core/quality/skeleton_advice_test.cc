@@ -181,7 +181,7 @@ TEST(CoarseLatticeAdvice, AdvisesNoPointsWhereSurfacesCross) {
 TEST(SmallSkeletonAdvice, IsForSolidsOfTwoPointsAcross) {
   NormalBlock block({10, 10, 3}, 0.5);
   const Advice advice = small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 0.5f}, 1000);
-  EXPECT_TRUE(says(advice, "two across the solid")) << advice.text;
+  EXPECT_TRUE(says(advice, "at most two across the solid")) << advice.text;
   EXPECT_TRUE(suggests(advice, "points", "10000"));
   EXPECT_TRUE(is_plain(advice));
   EXPECT_TRUE(small_skeleton_advice(block.lattice, std::vector<float>{0.5f, 1.5f, 0.5f}, 1000).text.empty());
