@@ -11,8 +11,7 @@
 namespace affskel::core {
 namespace {
 
-// Joints are one up to so many of the smaller one's balls from each other.
-constexpr double kTogether = 1.3;
+constexpr double kTogether = 1.3;  // balls: up to so far from each other joints are one
 
 // Vertices, the first counted twice.
 constexpr std::size_t kLeastLoop = 4;
@@ -81,7 +80,7 @@ class Joints {
   // The ends of a jar's handle, where its belly begins, are not one for lying in that.
   bool are_together(std::uint32_t a, std::uint32_t b, std::uint32_t link) {
     const auto [smaller, larger] = std::minmax({ball(a), ball(b)});
-    return are_within(a, b, kTogether * smaller) || (are_within(a, b, larger) && is_bridge(link));
+    return are_within(a, b, kTogether * smaller) || (are_within(a, b, kTogether * larger) && is_bridge(link));
   }
 
   // The line itself, not only its ends: a handle leads from a trunk's ball back into it.

@@ -20,6 +20,7 @@ constexpr double kThicker = 1.4;  // times as thick as the thickest
 constexpr double kAcross = 1.3;   // times the thickest, its second axis: of a stretch of a tube 1.23
 constexpr double kLack = 2;       // of what a hub has, for each that its ellipsoid lacks
 constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
+constexpr double kLeft = 1. / 3;  // of a limb that is longer than a hub is thick, what this leaves at least
 constexpr double kOfTube = 1.1;   // times a limb's own sections: where they are larger, a hub begins
 constexpr double kTaper = 0.1;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
@@ -157,6 +158,7 @@ class FindHubs {
     for (PartedLimb& limb : parted_.limbs)
       for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
         if (found.has[limb.line[0]] != 0) part_by_sections(limb.line, found.has);
+    if (!leaves_limbs(found)) return false;
     const PlaceMoments left = moments_of(found.has);
     if (!(left.count > 0) || left.count > kTaken * found.within.count) return false;
     const HubEllipsoid form = ellipsoid_of(left);
@@ -170,16 +172,14 @@ class FindHubs {
   }
 
   // Noise moves the place where slices of limbs begin to grow, and their ellipsoid little.
-  // @return false where the end of a long limb lies within, or the middle of one alone.
+  // @return false where the middle of a limb alone lies within.
   bool part_at_ellipsoid(Candidate& found) {
     stop_.did(8 * ends_.size());
-    const double thick = diameter_of(found.within.count);
     for (std::uint32_t v = 0; v < ends_.size(); ++v) {
       if (found.form.holds(in_.places[v]))
         found.has[v] = 1;
       else if (parted_.limb[v] != kNone)
         found.has[v] = 0;
-      if (found.has[v] != 0 && ends_[v] == 1 && tip_of_[v] > thick) return false;
     }
     const auto has = [&](std::uint32_t v) { return found.has[v] != 0; };
     return std::ranges::none_of(parted_.limbs, [&](const PartedLimb& limb) {
@@ -209,6 +209,20 @@ class FindHubs {
       way += norm(in_.places[line[first]] - in_.places[line[first - 1]]);
       if (in_.section[line[first - 1]] > kOfTube * (own.radius + own.slope * way)) return;
     }
+  }
+
+  // Of each long limb that ends free, from its end on.  A spanner's jaw fills an ellipsoid that has most of both prongs.
+  bool leaves_limbs(const Candidate& found) {
+    const double thick = diameter_of(found.within.count);
+    for (PartedLimb& limb : parted_.limbs) {
+      for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end())) {
+        if (ends_[limb.line[0]] != 1 || limb.length <= thick) continue;
+        std::size_t count = 0;
+        while (count < limb.line.size() && found.has[limb.line[count]] == 0) ++count;
+        if (length_of(in_.places, std::span(limb.line).first(count)) < kLeft * limb.length) return false;
+      }
+    }
+    return true;
   }
 
   // A limb's sections: their median, and how they grow towards its hub, by those of its halves.

@@ -97,7 +97,7 @@ TEST(JoinedLinks, JointsFartherApartStay) {
 // other end, too.
 TEST(JoinedLinks, ALargeBallHoldsWhatHangsOnItAndNoHandle) {
   for (const bool is_handle : {false, true}) {
-    Fork fork(1.35);
+    Fork fork(1.9);
     fork.ball[1] = 1.5;
     if (is_handle) fork.lines.segments.push_back({5, 8});  // an end on each side
     std::sort(fork.lines.segments.begin(), fork.lines.segments.end());

@@ -261,6 +261,20 @@ TEST(LimbHubs, HoldNoLimbsEnd) {
   EXPECT_TRUE(cube.found().hubs.empty());
 }
 
+// 5.4 long to where it leaves the ellipsoid, and 1.6 or 5 beyond.
+TEST(LimbHubs, HoldNoTwoThirdsOfALimb) {
+  for (const bool is_long : {false, true}) {
+    Cube cube = cube_with_limb(10, 0.5);
+    std::uint32_t at = cube.segments.back()[1];
+    for (const Vec3& step : {Vec3{0.1, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, -0.1}})
+      at = cube.go(at, step, 10, 0.5);
+    cube.go(at, {0.07, 0.07, 0}, is_long ? 64 : 30, 0.5);
+    cube.radius.resize(cube.places.size(), 0.5);
+    cube.open_until(2.84);
+    EXPECT_EQ(cube.found().hubs.size(), is_long ? 1U : 0U);
+  }
+}
+
 // A seat whose two joints are farther apart than what is nearest to the link between them is thick, by its volume.
 TEST(LimbHubs, AreAsWideAsAPlate) {
   expect_one_hub_of_two_joints(Cube({12, 12, 2}), {-2.5, 0, 0}, 50, 2.4);
