@@ -257,7 +257,7 @@ void find_radii(const CurveInput& in, std::span<const std::vector<std::uint32_t>
   const std::vector<double> area = section_sizes(
       places, balls, lines, threads,
       [&](const Vec3& at, const Vec3& across, double ball) { return sections.area(at, across, ball); });
-  curve.radius = limb_radii({lines, curve.share, curve.slice, tube, area, in_joint, volume});
+  curve.radius = limb_radii({lines, curve.share, curve.slice, tube, balls, area, in_joint, volume});
   for (double& radius : curve.radius) radius *= in.solid.scale();
 }
 

@@ -79,6 +79,8 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
   const std::vector<std::uint32_t> ends = ends_of(vertices, input.lines);
   std::vector<double> radius(vertices, 0);
   std::vector<char> in_line(vertices, 0);
+  // What is nearest to a short link may be little: the limbs beside it have the rest.
+  const auto tube_at = [&](std::uint32_t v) { return std::max(input.tube[v], input.ball[v]); };
   for (const auto& line : input.lines) {
     const std::size_t count = line.size();
     for (const std::uint32_t v : line) in_line[v] = 1;
@@ -88,7 +90,7 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
         const std::uint32_t v = line[n];
         whole[n] = ends[v] < 3 && (in_joints || !input.in_joint[v]) && input.share[v] > 0 &&
                    input.share[v] >= kWhole * input.slice[v] && input.area[v] > 0 &&
-                   radius_of_disc(input.area[v]) < kOpen * input.tube[v];
+                   radius_of_disc(input.area[v]) < kOpen * tube_at(v);
       }
       return std::find(whole.begin(), whole.end(), 1) != whole.end();
     };
@@ -100,7 +102,7 @@ std::vector<double> limb_radii(const LimbRadiiInput& input) {
       for (std::size_t k = low; k < high; ++k) area += input.area[line[k]];
       const double weight = n == 0 || n + 1 == count ? ends[line[n]] : 1;  // as above
       radius[line[n]] +=
-          (is_any ? radius_of_disc(area / static_cast<double>(high - low)) : input.tube[line[n]]) / weight;
+          (is_any ? radius_of_disc(area / static_cast<double>(high - low)) : tube_at(line[n])) / weight;
     }
   }
   for (std::uint32_t v = 0; v < vertices; ++v)

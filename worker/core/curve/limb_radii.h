@@ -27,6 +27,7 @@ struct LimbRadiiInput {
   std::span<const double> share;                      ///< per vertex: of the volume, what belongs to it
   std::span<const double> slice;                      ///< per vertex: of the volume, what is nearest to it
   std::span<const double> tube;                       ///< per vertex: see slice_radii()
+  std::span<const double> ball;                       ///< per vertex: distance to the surface
   std::span<const double> area;                       ///< per vertex: of the section across the line
   std::span<const char> in_joint;  ///< per vertex: whether that section reaches into other limbs
   double volume = 0;
@@ -34,7 +35,8 @@ struct LimbRadiiInput {
 
 /// How thick limbs are: the radius of a disc as large as the section, as a mean over a few vertices on either side.  Where that
 /// reaches into other limbs, or is clearly more than the tube, or others have what is nearest to the vertex, a limb is as thick
-/// as where it comes out; a line that nowhere does is as thick as its tube.  The optimal section tells no thickness: all planes
+/// as where it comes out; a line that nowhere does is as thick as its tube, or the ball if that is larger, as beside the tube of
+/// another.  The optimal section tells no thickness: all planes
 /// through a place on the axis of a tube cut off as much, however they are tilted.
 /// @return per vertex; for one without a line, and for a body that limbs hang on (see limb_hubs()), that of a ball as large.
 std::vector<double> limb_radii(const LimbRadiiInput& input);

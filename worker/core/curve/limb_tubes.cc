@@ -44,8 +44,8 @@ class LimbTubes {
     const Limb& limb = limbs_[tubed_.limb_of[nearest]];
     const std::array<double, 2> outside{outside_hub(limb.ends[0], at), outside_hub(limb.ends[1], at)};
     const std::size_t nearer = outside[1] < outside[0] ? 1 : 0;
-    if (outside[nearer] < 0)
-      return !limb.is_hidden && is_own(limb, nearest, nearer, at) ? nearest : limb.ends[nearer];
+    const bool is_own = !limb.is_hidden && is_own_at_hub(limb, nearest, nearer, at);
+    if (outside[nearer] < 0) return is_own ? nearest : limb.ends[nearer];
     if (!limb.is_hidden) {
       if (const Limb* thicker = thicker_about(limb, at))
         return own_vertex(*thicker, nearest_in(*thicker, at));
@@ -55,7 +55,7 @@ class LimbTubes {
                                   : depth_below(limb, tubed_.rank[nearest], at);
     if (least < 0) return nearest;
     std::uint32_t owner = nearest;
-    if (outside[nearer] < least) {
+    if (outside[nearer] < least && !is_own) {
       least = outside[nearer];
       owner = limb.ends[nearer];
     }
@@ -175,9 +175,9 @@ class LimbTubes {
     return hub ? hub->outside(at) : std::numeric_limits<double>::infinity();
   }
 
-  // What a limb that begins within the ellipsoid of a hub has there, as a finger where it leaves the palm, with what noise
-  // makes stand out; it has a flat end.
-  bool is_own(const Limb& limb, std::uint32_t vertex, std::size_t end, const Vec3& at) const {
+  // What a limb that begins within the ellipsoid of a hub has within it and beside it, as a finger where it leaves the palm, with
+  // what noise makes stand out; it has a flat end.
+  bool is_own_at_hub(const Limb& limb, std::uint32_t vertex, std::size_t end, const Vec3& at) const {
     const std::uint32_t first = limb.at(end, 0);
     if (outside_hub(limb.ends[end], places_[first]) >= 0) return false;
     const TubeRing& ring = limb.rings[tubed_.rank[vertex]];

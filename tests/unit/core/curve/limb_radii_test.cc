@@ -36,7 +36,7 @@ struct ThreeLimbs : DrawnLines {
   }
   // Sections of the second line's first vertices.
   void widen(double radius) { std::fill_n(area.begin() + kFirstOfThin, kWide, pi * radius * radius); }
-  std::vector<double> radii() const { return limb_radii({lines(), share, slice, tube, area, in_joint, 100}); }
+  std::vector<double> radii() const { return limb_radii({lines(), share, slice, tube, ball, area, in_joint, 100}); }
 };
 
 TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
@@ -49,7 +49,7 @@ TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
 TEST(LimbRadii, WithoutALineIsThatOfTheBall) {
   const std::vector<double> one = {1}, none = {0};
   const std::vector<char> free = {0};
-  EXPECT_NEAR(limb_radii({{}, one, one, none, none, free, 4. / 3 * pi * 8})[0], 2, 1e-12);
+  EXPECT_NEAR(limb_radii({{}, one, one, none, none, none, free, 4. / 3 * pi * 8})[0], 2, 1e-12);
 }
 
 TEST(LimbRadii, InAJointAreThoseOfWhereTheLimbComesOut) {
@@ -74,13 +74,23 @@ TEST(LimbRadii, InAThickerLimbAreThoseOfWhereALimbComesOut) {
   EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1, 1e-12);
 }
 
-TEST(LimbRadii, OfALineThatLiesInOthersAreItsTubes) {
+TEST(LimbRadii, OfALineThatLiesInOthersAreItsTubesOrBalls) {
   ThreeLimbs limbs;
+  limbs.ball[kFirstOfThin + 8] = 0.5;
   for (std::uint32_t v = kFirstOfThin; v < kFirstOfThin + 20; ++v) {
     limbs.share[v] = 0;
     limbs.tube[v] = 0.7;
   }
-  EXPECT_NEAR(limbs.radii()[kFirstOfThin + 7], 0.7, 1e-12);
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin + 7], 1, 1e-12) << "the ball, of which others have the most";
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin + 8], 0.7, 1e-12);
+}
+
+// As a vessel between two branches, whose slices are theirs.
+TEST(LimbRadii, AreNotThoseOfThinnerTubesThanBalls) {
+  ThreeLimbs limbs;
+  limbs.widen(1.1);
+  std::fill_n(limbs.tube.begin() + kFirstOfThin, 20, 0.7);
+  EXPECT_NEAR(limbs.radii()[kFirstOfThin], 1.1, 1e-12) << "1.6 of its tube, 1.1 of its ball";
 }
 
 TEST(LimbRadii, OfABodyThatLimbsHangOnAreABalls) {

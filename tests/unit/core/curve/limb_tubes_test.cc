@@ -201,6 +201,17 @@ TEST(LimbTubes, AHubHasItsEllipsoid) {
   EXPECT_GT(lines.owner({1.3, 0, -0.1}).x, 1.4) << "nearest to the hub's own line, and to a leg's tube";
 }
 
+// An arm of a starfish, 2 thick where it begins in a ball of 3 and 0.5 at its end, is thicker beside the ball than mostly.
+TEST(LimbTubes, ATaperedLimbHasNoRingOfItsHub) {
+  Tubed lines;
+  const std::uint32_t body = lines.add({0, 0, 0}, 3);
+  std::uint32_t last = lines.go(body, {0.1, 0, 0}, 24, 2);
+  lines.of_hub = last + 1;
+  for (int n = 0; n < 80; ++n) last = lines.go(last, {0.1, 0, 0}, 1, 2 - 1.5 * n / 80);
+  lines.hubs = {{{{}, {{{1. / 9, 0, 0}, {0, 1. / 9, 0}, {0, 0, 1. / 9}}}}, body}};
+  for (const double off : {1.2, 1.4, 1.6, 1.85}) EXPECT_NEAR(lines.owner({2.65, 0, off}).x, 2.65, 0.06) << off;
+}
+
 // A leg under the corner of a seat: what lies above it is the seat's, though the ellipsoid does not reach it.
 TEST(LimbTubes, ALegDoesNotGoOnIntoItsHub) {
   Tubed lines;
