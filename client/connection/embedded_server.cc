@@ -12,11 +12,13 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "base/find_program.h"
+#include "base/reaped.h"
 #include "client/base/error.h"
 #include "wire/sha256.h"
 
@@ -99,10 +101,12 @@ void rotate(const fs::path& log) {
   if (!error && size > kMaxLogBytes) fs::rename(log, log.string() + ".1", error);
 }
 
-pid_t start_server(const EmbeddedPaths& paths, const fs::path& program) {
-  return DetachedSpawn(paths.log).run({program, "--data-dir", paths.home, "--listen",
-                                       "unix:" + paths.socket.string(), "--workers", "auto", "--idle-exit",
-                                       "60"});
+// Its status when it has left.  Idle, it leaves before a client that stays, as `web` does, which then starts
+// another: each is reaped, so that none is a zombie until the client ends.
+std::future<int> start_server(const EmbeddedPaths& paths, const fs::path& program) {
+  return base::reaped(DetachedSpawn(paths.log).run({program, "--data-dir", paths.home, "--listen",
+                                                    "unix:" + paths.socket.string(), "--workers", "auto",
+                                                    "--idle-exit", "60"}));
 }
 
 // How the child ended, and with which code the client does.
@@ -111,9 +115,7 @@ struct End {
   ExitCode code = ExitCode::kUnreachable;
 };
 
-std::optional<End> ended(pid_t pid) {
-  int status = 0;
-  if (waitpid(pid, &status, WNOHANG) != pid) return std::nullopt;
+End end_of(int status) {
   if (WIFSIGNALED(status)) return End{"was killed by signal " + std::to_string(WTERMSIG(status))};
   const int code = WEXITSTATUS(status);
   // Client and server have the same exit code for a full disk.
@@ -126,11 +128,14 @@ std::optional<End> ended(pid_t pid) {
       end.code, "the private server " + end.how + "; the end of its log:" + tail_of(paths.log, 8), paths.log);
 }
 
-void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options, pid_t pid) {
+void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options, std::future<int> status) {
   Clock::time_point deadline = Clock::now() + options.patience;
   std::optional<End> end;
   while (!wire::socket_answers(paths.socket)) {
-    if (!end && (end = ended(pid))) deadline = std::min(deadline, Clock::now() + options.grace);
+    if (!end && status.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+      end = end_of(status.get());
+      deadline = std::min(deadline, Clock::now() + options.grace);
+    }
     if (Clock::now() >= deadline) give_up(paths, end.value_or(End{"does not answer on its socket"}));
     std::this_thread::sleep_for(options.poll);
   }

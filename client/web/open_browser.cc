@@ -2,17 +2,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <future>
-#include <thread>
-#include <utility>
 
 #include "base/atomic_file.h"
+#include "base/reaped.h"
 
 extern char** environ;
 
@@ -22,17 +19,9 @@ namespace {
 // xdg-open fails within it, where it does; a browser that it becomes stays.
 constexpr std::chrono::seconds kLooked{2};
 
-// Reaps the child whenever it ends.
-// @return whether it failed within kLooked.
+// Whether it fails within kLooked.
 bool fails_soon(pid_t child) {
-  std::promise<int> ended;
-  std::future<int> status = ended.get_future();
-  std::thread([child, end = std::move(ended)]() mutable {
-    int found = 0;
-    while (waitpid(child, &found, 0) < 0 && errno == EINTR) {
-    }
-    end.set_value(found);
-  }).detach();
+  std::future<int> status = base::reaped(child);
   return status.wait_for(kLooked) == std::future_status::ready && status.get() != 0;
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 
+#include <chrono>
 #include <sstream>
 #include <thread>
 
@@ -77,13 +77,20 @@ class EnsureEmbeddedServer : public ::testing::Test {
     paths_ = embedded_paths(environment_);
     options_.program = FAKE_EMBEDDED_SERVER;
   }
-  // The servers are children of this process.
-  ~EnsureEmbeddedServer() override {
+  ~EnsureEmbeddedServer() override { end_server(); }
+
+  // Whether nothing is left of it before long, not even a zombie.
+  bool end_server() {
     const std::string pid = tests::read_file(dir_ / "home/pid");
-    if (!pid.empty()) {
-      kill(std::stoi(pid), SIGTERM);
-      waitpid(std::stoi(pid), nullptr, 0);
+    if (pid.empty()) return true;
+    std::filesystem::remove(dir_ / "home/pid");
+    kill(std::stoi(pid), SIGTERM);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (kill(std::stoi(pid), 0) == 0) {
+      if (std::chrono::steady_clock::now() > deadline) return false;
+      std::this_thread::yield();
     }
+    return true;
   }
 
   tests::TemporaryDirectory dir_;
@@ -113,6 +120,11 @@ TEST_F(EnsureEmbeddedServer, AttachesSilentlyToARunningOne) {
   ensure_embedded_server(paths_, options_, environment_, listener_);
   EXPECT_TRUE(told_.empty());
   EXPECT_EQ(tests::read_file(dir_ / "home/pid"), pid);
+}
+
+TEST_F(EnsureEmbeddedServer, LeavesNoZombieWhenItHasLeft) {
+  ensure_embedded_server(paths_, options_, environment_, listener_);
+  EXPECT_TRUE(end_server());
 }
 
 TEST_F(EnsureEmbeddedServer, TwoClientsAtOnceShareOne) {

@@ -1,0 +1,23 @@
+#include "base/reaped.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace affskel::base {
+namespace {
+
+TEST(Reaped, TellsHowAChildEndedAndLeavesNothingOfIt) {
+  const pid_t child = fork();
+  if (child == 0) _exit(3);
+  const int status = reaped(child).get();
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_EQ(waitpid(child, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+}  // namespace
+}  // namespace affskel::base
