@@ -22,6 +22,8 @@ constexpr double kPartOfCell = 0.42;  // half the size of a point's ball: balls 
 constexpr int kMinWidth = 200, kMaxWidth = 8000;
 constexpr std::size_t kMaxCameras = 6;
 constexpr double kTallest = 1.25;  // the views' height by the picture's width: a slim body stays on a screen
+// Of the most that a view shows of the body's box: one that shows less is of an edge or an end.
+constexpr double kTelling = 1.0 / 3;
 constexpr Rgb kDark{0.08f, 0.09f, 0.12f};
 
 // One view, and how large the body is in it.
@@ -54,6 +56,14 @@ Shown shown_by(const Camera& camera, const RenderInput& input) {
   shown.width = box.sides().x;
   shown.height = box.sides().y;
   return shown;
+}
+
+// The first view that is no look at the edge of a plate or the end of a rod.
+Shown telling(const std::vector<Shown>& views) {
+  double most = 0;
+  for (const Shown& shown : views) most = std::max(most, shown.width * shown.height);
+  return *std::find_if(views.begin(), views.end(),
+                       [&](const Shown& shown) { return shown.width * shown.height >= kTelling * most; });
 }
 
 // Everything in pixels.
@@ -259,6 +269,7 @@ Image render_scene(const RenderInput& input, const RenderOptions& options) {
   check(input, options);
   std::vector<Shown> views;
   for (const Camera& camera : options.cameras) views.push_back(shown_by(camera, input));
+  if (options.bare) views = {telling(views)};
   Legend legend;
   legend.ink = ink_on(options.background);
   const Layout layout = lay_out(views, options, input, legend);

@@ -19,7 +19,8 @@ struct RenderOptions {
   int width = 1600;                               ///< pixels, 200 .. 8000; the height follows from the shape
   std::vector<Camera> cameras = usual_cameras();  ///< one view each, 1 .. 6
   bool mesh = true;                               ///< draw the body
-  bool bare = false;                              ///< without title, names and scales, for small pictures
+  /// For small pictures: no title, names and scales, and of the views the first that tells what the body is.
+  bool bare = false;
   Rgb background = kWhite;
 };
 

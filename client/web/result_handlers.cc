@@ -216,7 +216,6 @@ http::Response send_thumbnail(WebCall& call) {
   const std::string background = call.request.parameter("background");
   PictureOptions options;
   options.render.width = kThumbnailWidth;
-  options.render.cameras = {parse_camera("front")};
   options.render.bare = true;
   options.render.background = parse_background(background.empty() ? "white" : background);
   http::Response response;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/base/error.h"
@@ -79,6 +80,22 @@ TEST(RenderScene, AVertexAloneIsASpot) {
   for (int y = 0; y < with.height(); ++y)
     for (int x = 0; x < with.width(); ++x) changed += with.at(x, y) == without.at(x, y) ? 0 : 1;
   EXPECT_GT(changed, 10);
+}
+
+TEST(RenderScene, ASmallPictureShowsNeitherEdgesNorEnds) {
+  const std::vector<std::pair<core::Mesh, const char*>> expected = {
+      {core::make_box(100, 60, 4), "top"},    {core::make_box(4, 100, 60), "side"},
+      {core::make_box(5, 100, 5), "side"},    {core::make_box(100, 4, 60), "front"},
+      {core::make_box(50, 100, 70), "front"}, {core::make_body(), "front"}};
+  for (const auto& [mesh, camera] : expected) {
+    RenderInput input;
+    input.mesh = mesh;
+    input.cell = {{{10, 0, 0}, {0, 10, 0}, {0, 0, 10}}};
+    RenderOptions options{.width = 200, .bare = true};
+    const std::string chosen = encode_png(render_scene(input, options));
+    options.cameras = {parse_camera(camera)};
+    EXPECT_EQ(chosen, encode_png(render_scene(input, options))) << camera;
+  }
 }
 
 // Two halves of a bar, one above the other: from the front both are named, from above the one that hides the other.
