@@ -64,6 +64,14 @@ class OnThePage(OnABench):
         self.addCleanup(self.bench.drop, job)
         return job
 
+    def submit_uneven(self):
+        """Jobs of which the list says little and much, done and running."""
+        jobs = [self.bench.run("submit", self.bench.path("box.off"), "--points", str(400 + len(name)), "--name", name,
+                               "--wait").strip() for name in ("a", "many words " * 9, "no_word_ends_" * 9)]
+        jobs.append(self.submit_endless("endless"))
+        self.page.wait(lambda: all(self.page.all(f"#job-{job}") for job in jobs))
+        self.page.wait(lambda: "directions" in self.page.find(f"#job-{jobs[-1]} .numbers").text)
+
     def submit_body(self, points, name):
         """From the list of jobs to the finished skeleton."""
         self.page.submit(self.bench.path("body.off"), points, name)

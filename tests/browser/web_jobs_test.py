@@ -159,6 +159,17 @@ class Jobs(OnThePage):
         page.find("#search").send_keys(" ")
         page.wait(lambda: shown() == ["ape"])
 
+    def test_all_rows_of_the_list_have_the_same_columns(self):
+        self.submit_uneven()
+        for part in ("input", ".place", "h2", ".badge", ".when", "progress", ".numbers", ".what"):
+            places = self.page.script("""return Array.from(document.querySelectorAll('.job ' + arguments[0]))
+                .filter((e) => e.checkVisibility()).map((e) => e.getBoundingClientRect())
+                .map(({ left, right }) => [left, right])""", part)
+            self.assertTrue(places, part)
+            self.assertEqual([p for p in places if p != places[0]], [], part)
+        self.assertEqual(self.page.cut_off(), [])
+        self.page.screenshot("desktop-18-rows")
+
     def test_turns_the_skeleton(self):
         self.submit_body(8000, "turned")
         with self.page.turning_view():
@@ -237,8 +248,9 @@ class Phone(OnThePage):
         page.click("#close-interactive")
         page.click("nav a[href='#jobs']")
         page.heading("Jobs")
-        page.shown(".job")
+        self.submit_uneven()
         self.assert_fits()
+        self.assertEqual(page.cut_off(), [])
         page.screenshot("phone-4-jobs")
         page.click("#server-link")
         page.heading("Server")

@@ -139,6 +139,11 @@ class Visitor:
             document.querySelectorAll('body *:not(.visually-hidden):not(.visually-hidden *)'),
             (e) => e.closest('.scroll') && !e.matches('.scroll') ? 0 : e.getBoundingClientRect().right))""")
 
+    def cut_off(self):
+        """What in the list of jobs is wider than its place."""
+        return self.script("""return Array.from(document.querySelectorAll('.job, .job *'))
+            .filter((e) => e.clientWidth > 0 && e.scrollWidth > e.clientWidth).map((e) => e.outerHTML)""")
+
     def small_targets(self):
         """What a finger misses: links of text aside."""
         return self.script("""return Array.from(document.querySelectorAll('button, input, select, summary, .button'))

@@ -64,21 +64,25 @@ class Card {
     this.bar = h('progress', { max: 1 });
     this.numbers = h('p', { class: 'numbers' });
     this.what = h('p', { class: 'what' });
-    this.when = h('p', { class: 'small when' });
+    this.asked = h('span', {});
+    this.age = h('span', {});
     this.chosen = h('input', { type: 'checkbox' });
     this.image = h('img', { class: 'thumbnail', alt: '', hidden: true });
     this.place = h('span', { class: 'place' }, this.image);
     this.element = h(
       'li',
-      { class: 'card job row', id: `job-${job.id}` },
+      { class: 'card job', id: `job-${job.id}` },
       this.chosen,
       this.place,
       h(
         'div',
         { class: 'told' },
-        h('div', { class: 'row wrap' }, h('h2', {}, this.link), this.when, this.badge),
+        h('h2', {}, this.link),
+        this.badge,
+        h('p', { class: 'small when' }, this.asked, this.age),
         this.bar,
-        h('div', { class: 'row wrap' }, this.what, this.numbers),
+        this.numbers,
+        this.what,
       ),
     );
     this.state = job.state;
@@ -100,7 +104,8 @@ class Card {
     setText(this.numbers, progress(job, rate));
     setText(this.what, activity(job));
     const owner = session.admin && job.owner !== session.owner ? `${job.owner}, ` : '';
-    setText(this.when, `${owner}${asked(job)}, submitted ${ago(job.created_ms)}`);
+    setText(this.asked, `${owner}${asked(job)}`);
+    setText(this.age, `submitted ${ago(job.created_ms)}`);
     if (job.state === 'done' && !isRemoved(job) && !this.watched) {
       this.watched = true;
       whenSeen.observe(this.place);
