@@ -23,7 +23,7 @@ struct MeasureColumn {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array<MeasureColumn, 16> kMeasureColumns = {{
+constexpr std::array<MeasureColumn, 17> kMeasureColumns = {{
     {"length_units", [](const v1::SolidPart& p) { return p.length(); }},
     {"straight_length_units", [](const v1::SolidPart& p) { return p.straight_length(); }},
     {"volume_units3", [](const v1::SolidPart& p) { return p.volume(); }},
@@ -41,6 +41,7 @@ constexpr std::array<MeasureColumn, 16> kMeasureColumns = {{
     {"to_z", [](const v1::SolidPart& p) { return p.to(2); }},
     {"straightness",
      [](const v1::SolidPart& p) { return p.length() > 0 ? p.straight_length() / p.length() : 1; }},
+    {"angle_to_part", [](const v1::SolidPart& p) { return p.has_angle_to() ? p.angle_to() : kNothing; }},
 }};
 
 ordered_json whole_json(const Measures& m) {
@@ -87,7 +88,9 @@ std::string row_text(int number, const v1::SolidPart& part) {
   for (const double value : {part.length(), part.straight_length(), part.mean_radius(), part.least_radius(),
                              part.greatest_radius()})
     text += aligned(base::rounded(value, 4), 10);
-  return text + aligned(angle_text(part), 7) + "  " + place_text(part.to()) + "\n";
+  return text + aligned(angle_text(part), 7) +
+         aligned(part.has_angle_to() ? std::to_string(part.angle_to()) : "-", 4) + "  " +
+         place_text(part.to()) + "\n";
 }
 
 }  // namespace
@@ -109,7 +112,7 @@ std::string measures_text(const Measures& m) {
       key_line("tunnels", beside(curve.holes(), static_cast<std::uint64_t>(curve.solid_genus()))) +
       key_line("voids", beside(curve.lattice().cavities(), curve.solid_cavities())) +
       key_line("parts", std::to_string(solid.parts_size())) +
-      "\n part  kind    volume %      volume        area    length  straight    radius     least  greatest  angle"
+      "\n part  kind    volume %      volume        area    length  straight    radius     least  greatest  angle  to"
       "  ends at\n";
   for (int n = 0; n < solid.parts_size(); ++n) text += row_text(n + 1, solid.parts(n));
   return text;

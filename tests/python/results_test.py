@@ -162,6 +162,7 @@ class AgainstTheFiles(unittest.TestCase):
             table = measures.table()
             self.assertEqual([part["kind"] for part in file["parts"]], list(table["kind"]))
             for name, column in (("length_units", "length"), ("volume_units3", "volume"), ("angle_degrees", "angle"),
+                                 ("angle_to_part", "angle_to"),
                                  ("surface_area_units2", "surface_area"), ("mean_radius_units", "mean_radius"),
                                  ("to_x", "to_x"), ("from_z", "from_z"),
                                  ("straightness", "straightness")):

@@ -14,7 +14,7 @@ from .v1 import types_pb2 as types
 
 # Columns of a table, and what the contract calls them.
 NUMBERS = ("length", "straight_length", "volume", "volume_share", "surface_area", "mean_radius", "least_radius",
-           "greatest_radius", "angle")
+           "greatest_radius", "angle", "angle_to")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -28,8 +28,8 @@ class Measures(Saveable):
         kinds: of each part: "limb" (one end is free), "line" (both), "link" (none), "loop" (it closes), "point"
             (a ball, or a body that limbs hang on).
         numbers: (p,) each: length and straight_length of the branch, volume, volume_share, surface_area, mean_radius,
-            least_radius, greatest_radius, angle (degrees, to the first other branch at `starts`: 180 goes straight on;
-            NaN without one), straightness (straight_length / length; 1 of a point).
+            least_radius, greatest_radius, angle (degrees, to the heaviest other branch at `starts`: 180 goes straight
+            on; NaN without one), angle_to (the part that it is), straightness (straight_length / length; 1 of a point).
         starts, ends: (p, 3) where each branch hangs on, and its other end, of a limb the free one.
         branches: of each part the indices of its vertices in `curve`, from start to end.
         links: the same of lines between parts that lie within joints, whole: no part of the solid is theirs.
@@ -115,7 +115,8 @@ def measures_of(message: types.SolidParts) -> Measures:
     numbers = {name: np.array([getattr(part, name) for part in parts], np.float64) for name in NUMBERS}
     length, straight = numbers["length"], numbers["straight_length"]
     numbers["straightness"] = np.divide(straight, length, out=np.ones(len(parts)), where=length > 0)
-    numbers["angle"][[not part.HasField("angle") for part in parts]] = np.nan
+    for name in ("angle", "angle_to"):
+        numbers[name][[not part.HasField(name) for part in parts]] = np.nan
     curve, surface = surface_of(message.curve), surface_of(message.surface)
     branches: List[Ints] = [np.array(part.vertices, np.int64) for part in parts]
     links: List[Ints] = [np.array(link.vertices, np.int64) for link in message.links]

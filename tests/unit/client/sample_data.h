@@ -133,6 +133,7 @@ inline v1::SolidParts sample_parts() {
     part.set_least_radius(1);
     part.set_greatest_radius(3);
     if (angle > 0) part.set_angle(angle);
+    if (angle > 0) part.set_angle_to(1);
     part.add_vertices(1);
   };
   add(0.7, 4, {0, 0, 0}, 0);

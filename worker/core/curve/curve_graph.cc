@@ -292,6 +292,7 @@ class GraphOfCurve {
     branch.angle = std::numeric_limits<double>::quiet_NaN();
     const std::uint32_t other = heaviest_beside(which, branch.vertices.front());
     if (other == kNone || branch.kind == BranchKind::kPoint) return;
+    branch.angle_to = other;
     const CurveBranch& on = graph_.branches[other];
     const Vec3 way = direction(branch, false), rest = direction(on, on.from != branch.from);
     branch.angle = 180 / std::numbers::pi * plain_angle(norm(cross(way, rest)), dot(way, rest));

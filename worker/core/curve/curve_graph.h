@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/none.h"
 #include "core/base/vec3.h"
 #include "core/mesh/mesh.h"
 
@@ -26,6 +27,7 @@ struct CurveBranch {
   double mean_radius = 0, least_radius = 0, greatest_radius = 0;
   /// Degrees, at `from`, to the heaviest other branch there: 180 goes straight on; NaN without another, and of a point.
   double angle = 0;
+  std::uint32_t angle_to = kNone;  ///< which branch that is
 };
 
 /// A curve skeleton as a graph.

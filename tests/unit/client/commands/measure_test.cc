@@ -40,8 +40,10 @@ TEST_F(MeasureTest, TellsOfTheWholeAndItsParts) {
   EXPECT_EQ(first["volume_share"], 0.7);
   EXPECT_EQ(first["surface_area_units2"], 8e6);
   EXPECT_TRUE(first["angle_degrees"].is_null());
+  EXPECT_TRUE(first["angle_to_part"].is_null());
   EXPECT_EQ(first["to_x"], 0);
   EXPECT_EQ(found["parts"][1]["angle_degrees"], 127);
+  EXPECT_EQ(found["parts"][1]["angle_to_part"], 1);
   EXPECT_EQ(found["parts"][1]["length_units"], 5);
 }
 
@@ -70,7 +72,7 @@ TEST_F(MeasureTest, NumbersStandApartHoweverLong) {
   parts.mutable_parts(1)->set_angle(0.000692);
   service_.artifacts[v1::ARTIFACT_KIND_PARTS] = parts.SerializeAsString();
   const Outcome outcome = run({"measure", "@last"});
-  EXPECT_NE(outcome.out.find("0.5642 0.000692  ("), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("0.5642 0.000692   1  ("), std::string::npos) << outcome.out;
 }
 
 TEST_F(MeasureTest, ABallIsOnePart) {

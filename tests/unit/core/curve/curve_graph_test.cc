@@ -139,6 +139,9 @@ TEST(CurveGraph, ABodyThatLimbsHangOnIsAPoint) {
     EXPECT_EQ(graph.nodes[graph.branches[0].from], middle);
     EXPECT_EQ(graph.branches[1].share, 0.3);
     EXPECT_NEAR(graph.branches[1].angle, 180, 1e-9) << "to the next limb, not to the point";
+    EXPECT_EQ(graph.branches[1].angle_to, 2U);
+    EXPECT_EQ(graph.branches[2].angle_to, 1U);
+    EXPECT_EQ(graph.branches[0].angle_to, kNone);
     EXPECT_EQ(graph.degree[graph.branches[0].from], 3U);
     EXPECT_EQ(graph.part[1], 0U) << "where a limb has no share yet";
   }

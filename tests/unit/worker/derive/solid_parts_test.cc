@@ -88,6 +88,9 @@ TEST(DeriveParts, OfACrossAreItsArms) {
     EXPECT_NEAR(part.straight_length(), part.length(), 0.3);
     EXPECT_NEAR(part.mean_radius(), half, 0.15);
     EXPECT_TRUE(std::abs(part.angle() - 90) < 2 || std::abs(part.angle() - 180) < 2) << part.angle();
+    const auto& [to, other] = std::pair(part.to(), solid.parts(static_cast<int>(part.angle_to()) - 1).to());
+    EXPECT_EQ(part.angle() > 135, to[0] * other[0] + to[1] * other[1] + to[2] * other[2] < -1)
+        << part.angle_to();
   }
   EXPECT_NEAR(volume, prepared.solid().volume, 1e-9 * volume);
   EXPECT_NEAR(area, solid.surface_area(), 1e-9 * area);
