@@ -12,6 +12,7 @@ namespace affskel::core {
 namespace {
 
 constexpr double kTogether = 1.3;  // balls: up to so far from each other joints are one
+constexpr double kMuchThinner = 0.5;
 
 // Vertices, the first counted twice.
 constexpr std::size_t kLeastLoop = 4;
@@ -77,10 +78,12 @@ class Joints {
     return pieces.find(polylines_[which].front()) != pieces.find(polylines_[which].back());
   }
 
-  // The ends of a jar's handle, where its belly begins, are not one for lying in that.
+  // The ends of a jar's handle, where its belly begins, are not one for lying in that.  Where two thin limbs meet, as a dog's hind
+  // legs, lies beside the skin of what they hang on.
   bool are_together(std::uint32_t a, std::uint32_t b, std::uint32_t link) {
     const auto [smaller, larger] = std::minmax({ball(a), ball(b)});
-    return are_within(a, b, kTogether * smaller) || (are_within(a, b, kTogether * larger) && is_bridge(link));
+    const double way = (smaller < kMuchThinner * larger ? kTogether : 1) * larger;
+    return are_within(a, b, kTogether * smaller) || (are_within(a, b, way) && is_bridge(link));
   }
 
   // The line itself, not only its ends: a handle leads from a trunk's ball back into it.

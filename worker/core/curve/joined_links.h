@@ -10,8 +10,9 @@ namespace affskel::core {
 
 /// Makes one joint of those that lie in each other's balls: where three limbs and more meet, a collapse leaves joints
 /// of three lines, with short links between them, whose order is chance.  A link between two joints is drawn together
-/// when they, and all that they have been made of, are less than 1.3 balls apart, of the larger one where nothing but the
-/// link holds its ends together, else of the smaller, and the link itself lies in their balls, the shortest first; the joint of the larger ball stays, of equal ones the one nearer to the middle of all.  What is left
+/// when they, and all that they have been made of, are less than 1.3 of the smaller one's balls apart, or lie in the
+/// larger one's, or 1.3 of it where it is twice as large, where nothing but the link holds its ends together, and the link
+/// itself lies in their balls, the shortest first; the joint of the larger ball stays, of equal ones the one nearer to the middle of all.  What is left
 /// has the same pieces and tunnels.
 /// @param places, ball per vertex of the sheet that the lines are of.
 /// @throws CoreError kCancelled when the context asks to stop.

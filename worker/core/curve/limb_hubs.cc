@@ -20,8 +20,9 @@ constexpr double kThicker = 1.4;  // times as thick as the thickest
 constexpr double kAcross = 1.3;   // times the thickest, its second axis: of a stretch of a tube 1.23
 constexpr double kLack = 2;       // of what a hub has, for each that its ellipsoid lacks
 constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
-constexpr double kLeft = 1. / 3;  // of a limb that is longer than a hub is thick, what this leaves at least
-constexpr double kOfTube = 1.1;   // times a limb's own sections: where they are larger, a hub begins
+// Of a limb that is longer than a hub is thick, what this leaves at least, unless it is so many times as thick.
+constexpr double kLeft = 1. / 3, kFarThicker = 2.5;
+constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
 constexpr double kTaper = 0.1;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
 constexpr double kScales[] = {1, 2};  // of the ellipsoid of a body, to begin with
@@ -158,12 +159,12 @@ class FindHubs {
     for (PartedLimb& limb : parted_.limbs)
       for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end()))
         if (found.has[limb.line[0]] != 0) part_by_sections(limb.line, found.has);
-    if (!leaves_limbs(found)) return false;
     const PlaceMoments left = moments_of(found.has);
     if (!(left.count > 0) || left.count > kTaken * found.within.count) return false;
     const HubEllipsoid form = ellipsoid_of(left);
     const auto axes = form.half_axes();
-    if (!is_thick(found, axes, left.count) || form.is_bar() || axes[0] < kResolved * in_.lattice.spacing ||
+    if (!is_thick(found, axes, left.count) || !leaves_limbs(found, diameter_of(left.count)) ||
+        form.is_bar() || axes[0] < kResolved * in_.lattice.spacing ||
         !is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * form.centre))
       return false;
     const double filled = form.filled_by(left, in_.lattice.spacing);
@@ -211,15 +212,21 @@ class FindHubs {
     }
   }
 
-  // Of each long limb that ends free, from its end on.  A spanner's jaw fills an ellipsoid that has most of both prongs.
-  bool leaves_limbs(const Candidate& found) {
-    const double thick = diameter_of(found.within.count);
-    for (PartedLimb& limb : parted_.limbs) {
-      for (int end = 0; end < 2; ++end, std::reverse(limb.line.begin(), limb.line.end())) {
-        if (ends_[limb.line[0]] != 1 || limb.length <= thick) continue;
-        std::size_t count = 0;
-        while (count < limb.line.size() && found.has[limb.line[count]] == 0) ++count;
-        if (length_of(in_.places, std::span(limb.line).first(count)) < kLeft * limb.length) return false;
+  // Of long ones that end free, from their ends on.  An elephant's torso has most of its legs, but what of a spanner has most of
+  // a prong is its prongs.
+  // @param thick how thick the hub is.
+  bool leaves_limbs(const Candidate& found, double thick) const {
+    const double within = diameter_of(found.within.count);
+    for (const PartedLimb& limb : parted_.limbs) {
+      if (limb.length <= within) continue;
+      for (const bool from_last : {false, true}) {
+        const auto at = [&](std::size_t n) { return point_from(from_last, limb.line, n); };
+        const auto is_left = [&](std::size_t n) { return n < limb.line.size() && found.has[at(n)] == 0; };
+        if (ends_[at(0)] != 1) continue;
+        double left = 0;
+        for (std::size_t n = 1; is_left(n - 1) && is_left(n); ++n)
+          left += norm(in_.places[at(n)] - in_.places[at(n - 1)]);
+        if (left == 0 || (left < kLeft * limb.length && thick < 2 * kFarThicker * limb.size)) return false;
       }
     }
     return true;

@@ -45,8 +45,8 @@ struct LimbHubsInput {
 /// - is less than 1.2 times what lay in the ellipsoid,
 /// - fills more than two thirds of an ellipsoid, no network, is not 2.25 times as long as wide, a limb, has its middle in the
 ///   solid, no ring, and is three spacings thick,
-/// - and there is in it a joint, and neither two thirds or the end of a limb that is longer than it is thick nor the middle of
-///   one and neither end.
+/// - and there is in it a joint, and neither the end of a limb that is longer than it is thick, nor two thirds unless it is
+///   2.5 times as thick, nor the middle of one and neither end.
 /// Of those in one place, where the middle of one lies in the other, it is the one that has most, less twice what its
 /// ellipsoid lacks.
 LimbHubs limb_hubs(const LimbHubsInput& input);

@@ -97,13 +97,21 @@ TEST(JoinedLinks, JointsFartherApartStay) {
 // other end, too.
 TEST(JoinedLinks, ALargeBallHoldsWhatHangsOnItAndNoHandle) {
   for (const bool is_handle : {false, true}) {
-    Fork fork(1.9);
+    Fork fork(1.35);
     fork.ball[1] = 1.5;
     if (is_handle) fork.lines.segments.push_back({5, 8});  // an end on each side
     std::sort(fork.lines.segments.begin(), fork.lines.segments.end());
     const SheetLines joined = joined_links(fork.lines, fork.places, fork.ball);
     EXPECT_EQ(count(fork.degrees(joined), 4), is_handle ? 0U : 1U);
     EXPECT_EQ(count(fork.degrees(joined), 3), is_handle ? 2U : 0U);
+  }
+}
+
+TEST(JoinedLinks, ABallTwiceAsLargeHoldsWhatLiesBesideIt) {
+  for (const double ball : {1.9, 2.1}) {
+    Fork fork(2.5);
+    fork.ball[1] = ball;
+    EXPECT_EQ(count(fork.degrees(joined_links(fork.lines, fork.places, fork.ball)), 4), ball > 2 ? 1U : 0U);
   }
 }
 

@@ -261,18 +261,21 @@ TEST(LimbHubs, HoldNoLimbsEnd) {
   EXPECT_TRUE(cube.found().hubs.empty());
 }
 
-// 5.4 long to where it leaves the ellipsoid, and 1.6 or 5 beyond.
-TEST(LimbHubs, HoldNoTwoThirdsOfALimb) {
-  for (const bool is_long : {false, true}) {
-    Cube cube = cube_with_limb(10, 0.5);
+// 5.4 long to where it leaves the ellipsoid, and 1.6 or 5 beyond; the cube is as thick as a ball of 4.96.
+TEST(LimbHubs, HoldNoTwoThirdsOfALimbUnlessFarThicker) {
+  const auto hubs = [](double radius, int beyond) {
+    Cube cube = cube_with_limb(10, radius);
     std::uint32_t at = cube.segments.back()[1];
     for (const Vec3& step : {Vec3{0.1, 0, 0}, Vec3{0, 0.1, 0}, Vec3{0, 0, -0.1}})
-      at = cube.go(at, step, 10, 0.5);
-    cube.go(at, {0.07, 0.07, 0}, is_long ? 64 : 30, 0.5);
-    cube.radius.resize(cube.places.size(), 0.5);
+      at = cube.go(at, step, 10, radius);
+    cube.go(at, {0.07, 0.07, 0}, 14 + beyond, radius);
+    cube.radius.resize(cube.places.size(), radius);
     cube.open_until(2.84);
-    EXPECT_EQ(cube.found().hubs.size(), is_long ? 1U : 0U);
-  }
+    return cube.found().hubs.size();
+  };
+  EXPECT_EQ(hubs(1.1, 16), 0U);
+  EXPECT_EQ(hubs(1.1, 50), 1U);
+  EXPECT_EQ(hubs(0.5, 16), 1U) << "as an elephant's leg";
 }
 
 // A seat whose two joints are farther apart than what is nearest to the link between them is thick, by its volume.
