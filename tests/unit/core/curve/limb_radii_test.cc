@@ -36,7 +36,9 @@ struct ThreeLimbs : DrawnLines {
   }
   // Sections of the second line's first vertices.
   void widen(double radius) { std::fill_n(area.begin() + kFirstOfThin, kWide, pi * radius * radius); }
-  std::vector<double> radii() const { return limb_radii({lines(), share, slice, tube, ball, area, in_joint, 100}); }
+  std::vector<double> radii() const {
+    return limb_radii({lines(), share, slice, tube, ball, area, in_joint, 100});
+  }
 };
 
 TEST(LimbRadii, AreThoseOfDiscsAsLarge) {
