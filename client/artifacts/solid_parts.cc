@@ -51,6 +51,8 @@ v1::SolidParts parse_solid_parts(const std::string& bytes) {
     for (const v1::SolidPart& branch : *branches) {
       require(branch.from_size() == 3 && branch.to_size() == 3, "a part without its ends");
       require(vertices > 0 && all_between(branch.vertices(), 0, vertices - 1), "a vertex out of range");
+      require(!branch.has_angle_to() || (branch.angle_to() >= 1 && branch.angle_to() <= parts),
+              "a part out of range");
     }
   }
   return message;

@@ -71,7 +71,7 @@ void add_measure(CommandLine& line) {
       "or more: limbs end freely, links join limbs, loops close, a line ends\n"
       "freely at both ends; a point is the body that others hang on, its radius that of a ball as large, or a solid\n"
       "without limbs.  Lengths are in the units of the mesh, without what of a line runs within such a body; angles\n"
-      "are those with the heaviest part at the joint, 180 where they lie straight",
+      "are those with the heaviest other branch at the joint, which is part \"to\", 180 where they lie straight",
       [options](Context& context) { run_measure(context, *options); });
   add_job(command, options->job);
   command

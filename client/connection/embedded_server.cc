@@ -103,7 +103,7 @@ void rotate(const fs::path& log) {
 
 // Its status when it has left.  Idle, it leaves before a client that stays, as `web` does, which then starts
 // another: each is reaped, so that none is a zombie until the client ends.
-std::future<int> start_server(const EmbeddedPaths& paths, const fs::path& program) {
+std::future<std::optional<int>> start_server(const EmbeddedPaths& paths, const fs::path& program) {
   return base::reaped(DetachedSpawn(paths.log).run({program, "--data-dir", paths.home, "--listen",
                                                     "unix:" + paths.socket.string(), "--workers", "auto",
                                                     "--idle-exit", "60"}));
@@ -128,13 +128,16 @@ End end_of(int status) {
       end.code, "the private server " + end.how + "; the end of its log:" + tail_of(paths.log, 8), paths.log);
 }
 
-void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options, std::future<int> status) {
+void wait_for_socket(const EmbeddedPaths& paths, const EmbeddedOptions& options,
+                     std::future<std::optional<int>> status) {
   Clock::time_point deadline = Clock::now() + options.patience;
   std::optional<End> end;
   while (!wire::socket_answers(paths.socket)) {
-    if (!end && status.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-      end = end_of(status.get());
-      deadline = std::min(deadline, Clock::now() + options.grace);
+    if (status.valid() && status.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+      if (const std::optional<int> how = status.get()) {
+        end = end_of(*how);
+        deadline = std::min(deadline, Clock::now() + options.grace);
+      }
     }
     if (Clock::now() >= deadline) give_up(paths, end.value_or(End{"does not answer on its socket"}));
     std::this_thread::sleep_for(options.poll);

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <future>
+#include <optional>
 
 #include "base/atomic_file.h"
 #include "base/reaped.h"
@@ -21,8 +22,8 @@ constexpr std::chrono::seconds kLooked{2};
 
 // Whether it fails within kLooked.
 bool fails_soon(pid_t child) {
-  std::future<int> status = base::reaped(child);
-  return status.wait_for(kLooked) == std::future_status::ready && status.get() != 0;
+  std::future<std::optional<int>> status = base::reaped(child);
+  return status.wait_for(kLooked) == std::future_status::ready && status.get().value_or(0) != 0;
 }
 
 }  // namespace

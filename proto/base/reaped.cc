@@ -8,14 +8,16 @@
 
 namespace affskel::base {
 
-std::future<int> reaped(pid_t child) {
-  std::promise<int> ended;
-  std::future<int> status = ended.get_future();
+std::future<std::optional<int>> reaped(pid_t child) {
+  std::promise<std::optional<int>> ended;
+  std::future<std::optional<int>> status = ended.get_future();
   std::thread([child, end = std::move(ended)]() mutable {
     int found = 0;
-    while (waitpid(child, &found, 0) < 0 && errno == EINTR) {
-    }
-    end.set_value(found);
+    pid_t told = 0;
+    do {
+      told = waitpid(child, &found, 0);
+    } while (told < 0 && errno == EINTR);
+    end.set_value(told == child ? std::optional(found) : std::nullopt);
   }).detach();
   return status;
 }

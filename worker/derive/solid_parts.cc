@@ -82,7 +82,7 @@ class Parts {
       part.set_least_radius(branch.least_radius);
       part.set_greatest_radius(branch.greatest_radius);
       if (std::isfinite(branch.angle)) part.set_angle(branch.angle);
-      // Branches without a share come last.
+      // A branch without a share is no part; those come last, so that branches and parts have the same numbers.
       if (branch.angle_to != core::kNone && graph_.branches[branch.angle_to].share > 0)
         part.set_angle_to(branch.angle_to + 1);
       part.mutable_vertices()->Add(branch.vertices.begin(), branch.vertices.end());

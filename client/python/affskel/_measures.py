@@ -29,7 +29,8 @@ class Measures(Saveable):
             (a ball, or a body that limbs hang on).
         numbers: (p,) each: length and straight_length of the branch, volume, volume_share, surface_area, mean_radius,
             least_radius, greatest_radius, angle (degrees, to the heaviest other branch at `starts`: 180 goes straight
-            on; NaN without one), angle_to (the part that it is), straightness (straight_length / length; 1 of a point).
+            on; NaN without one), angle_to (the part that it is, from 1; NaN where it is
+            none), straightness (straight_length / length; 1 of a point).
         starts, ends: (p, 3) where each branch hangs on, and its other end, of a limb the free one.
         branches: of each part the indices of its vertices in `curve`, from start to end.
         links: the same of lines between parts that lie within joints, whole: no part of the solid is theirs.
@@ -124,7 +125,8 @@ def measures_of(message: types.SolidParts) -> Measures:
     thickness = np.array(message.thickness, np.float64)
     if not len(triangle_part) == len(thickness) == len(surface.faces):
         raise InternalError("the server sent damaged parts of the solid: a triangle without its values")
-    for given in (triangle_part, point_part):
+    angle_to = numbers["angle_to"][~np.isnan(numbers["angle_to"])]
+    for given in (triangle_part, point_part, angle_to):
         if len(given) and not 1 <= given.min() <= given.max() <= len(parts):
             raise InternalError("the server sent damaged parts of the solid: a part out of range")
     if any(len(branch) == 0 or branch.max() >= len(curve.vertices) for branch in branches + links):

@@ -11,8 +11,8 @@
 namespace affskel::core {
 namespace {
 
-constexpr double kTogether = 1.3;  // balls: up to so far from each other joints are one
-constexpr double kMuchThinner = 0.5;
+constexpr double kTogether = 1.3;     // balls: up to so far from each other joints are one
+constexpr double kMuchThinner = 0.5;  // of the larger ball: what hangs on that may meet just outside of it
 
 // Vertices, the first counted twice.
 constexpr std::size_t kLeastLoop = 4;
@@ -78,8 +78,8 @@ class Joints {
     return pieces.find(polylines_[which].front()) != pieces.find(polylines_[which].back());
   }
 
-  // The ends of a jar's handle, where its belly begins, are not one for lying in that.  Where two thin limbs meet, as a dog's hind
-  // legs, lies beside the skin of what they hang on.
+  // The ends of a jar's handle, where its belly begins, are not one for lying in that.  A dog's hind legs meet just outside of its
+  // trunk's ball.
   bool are_together(std::uint32_t a, std::uint32_t b, std::uint32_t link) {
     const auto [smaller, larger] = std::minmax({ball(a), ball(b)});
     const double way = (smaller < kMuchThinner * larger ? kTogether : 1) * larger;

@@ -212,8 +212,8 @@ class FindHubs {
     }
   }
 
-  // Of long ones that end free, from their ends on.  An elephant's torso has most of its legs, but what of a spanner has most of
-  // a prong is its prongs.
+  // Whether enough is left of long limbs that end free, from their ends on.  An elephant's torso has most of its legs, but what of
+  // a spanner has most of a prong is its prongs.
   // @param thick how thick the hub is.
   bool leaves_limbs(const Candidate& found, double thick) const {
     const double within = diameter_of(found.within.count);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kWindow = 4;
 
 constexpr double kWhole = 0.99;  // of a slice
-constexpr double kOpen = 1.3;    // tubes: of a section that reaches into others
+constexpr double kOpen = 1.3;    // tubes or balls: of a section that reaches into others
 
 // From a place in a row on; itself where there is none.
 std::size_t nearest_whole(const std::vector<char>& whole, std::size_t n) {

@@ -34,9 +34,8 @@ struct LimbRadiiInput {
 };
 
 /// How thick limbs are: the radius of a disc as large as the section, as a mean over a few vertices on either side.  Where that
-/// reaches into other limbs, or is clearly more than the tube, or others have what is nearest to the vertex, a limb is as thick
-/// as where it comes out; a line that nowhere does is as thick as its tube, or the ball if that is larger, as beside the tube of
-/// another.  The optimal section tells no thickness: all planes
+/// reaches into other limbs, or is clearly more than the tube and the ball there, or others have what is nearest to the vertex, a limb is as thick
+/// as where it comes out; a line that nowhere does is as thick as the larger of both: of a short link others have most.  The optimal section tells no thickness: all planes
 /// through a place on the axis of a tube cut off as much, however they are tilted.
 /// @return per vertex; for one without a line, and for a body that limbs hang on (see limb_hubs()), that of a ball as large.
 std::vector<double> limb_radii(const LimbRadiiInput& input);

@@ -44,8 +44,8 @@ class LimbTubes {
     const Limb& limb = limbs_[tubed_.limb_of[nearest]];
     const std::array<double, 2> outside{outside_hub(limb.ends[0], at), outside_hub(limb.ends[1], at)};
     const std::size_t nearer = outside[1] < outside[0] ? 1 : 0;
-    const bool is_own = !limb.is_hidden && is_own_at_hub(limb, nearest, nearer, at);
-    if (outside[nearer] < 0) return is_own ? nearest : limb.ends[nearer];
+    const bool keeps = !limb.is_hidden && is_own_at_hub(limb, nearest, nearer, at);
+    if (outside[nearer] < 0) return keeps ? nearest : limb.ends[nearer];
     if (!limb.is_hidden) {
       if (const Limb* thicker = thicker_about(limb, at))
         return own_vertex(*thicker, nearest_in(*thicker, at));
@@ -55,7 +55,7 @@ class LimbTubes {
                                   : depth_below(limb, tubed_.rank[nearest], at);
     if (least < 0) return nearest;
     std::uint32_t owner = nearest;
-    if (outside[nearer] < least && !is_own) {
+    if (outside[nearer] < least && !keeps) {
       least = outside[nearer];
       owner = limb.ends[nearer];
     }

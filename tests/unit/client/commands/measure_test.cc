@@ -66,6 +66,22 @@ TEST_F(MeasureTest, WritesATable) {
   EXPECT_NE(shown.out.find("\n    1  limb          70"), std::string::npos) << shown.out;
 }
 
+// As of a link within joints, or made by an earlier version.
+TEST_F(MeasureTest, AnAngleMayBeToNoPart) {
+  v1::SolidParts parts = sample_parts();
+  parts.mutable_parts(1)->clear_angle_to();
+  service_.artifacts[v1::ARTIFACT_KIND_PARTS] = parts.SerializeAsString();
+  const json found = json::parse(run({"--json", "measure", "@last"}).out);
+  EXPECT_EQ(found["parts"][1]["angle_degrees"], 127);
+  EXPECT_TRUE(found["parts"][1]["angle_to_part"].is_null());
+  EXPECT_NE(run({"measure", "@last"}).out.find("127   -  ("), std::string::npos);
+  parts.mutable_parts(1)->set_angle_to(4);
+  service_.artifacts[v1::ARTIFACT_KIND_PARTS] = parts.SerializeAsString();
+  const Outcome outcome = run({"measure", "@last"});
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("a part out of range"), std::string::npos) << outcome.err;
+}
+
 TEST_F(MeasureTest, NumbersStandApartHoweverLong) {
   v1::SolidParts parts = sample_parts();
   parts.mutable_parts(1)->set_greatest_radius(0.5642);
