@@ -209,7 +209,8 @@ TEST(LimbTubes, ATaperedLimbHasNoRingOfItsHub) {
   lines.of_hub = last + 1;
   for (int n = 0; n < 80; ++n) last = lines.go(last, {0.1, 0, 0}, 1, 2 - 1.5 * n / 80);
   lines.hubs = {{{{}, {{{1. / 9, 0, 0}, {0, 1. / 9, 0}, {0, 0, 1. / 9}}}}, body}};
-  for (const double off : {1.2, 1.4, 1.6, 1.85}) EXPECT_NEAR(lines.owner({2.65, 0, off}).x, 2.65, 0.06) << off;
+  for (const double off : {1.2, 1.4, 1.6, 1.85})
+    EXPECT_NEAR(lines.owner({2.65, 0, off}).x, 2.65, 0.06) << off;
 }
 
 // A leg under the corner of a seat: what lies above it is the seat's, though the ellipsoid does not reach it.
