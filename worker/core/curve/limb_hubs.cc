@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -22,6 +23,8 @@ constexpr double kLack = 2;       // of what a hub has, for each that its ellips
 constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
 // Of a limb that is longer than a hub is thick, what this leaves at least, unless it is so many times as thick.
 constexpr double kLeft = 1. / 3, kFarThicker = 2.5;
+// Of a hub's thickness: shorter limbs are spurs in it.  One that would have a longer one whole is tried without it.
+constexpr double kStub = 0.5;
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
 constexpr double kTaper = 0.1;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
@@ -118,31 +121,28 @@ class FindHubs {
     for (const double scale : kScales) {
       Candidate begin{ellipsoid_of(all), all};
       begin.form.form = (1 / (scale * scale)) * begin.form.form;
-      Candidate all_in = begin;
-      left_out_ = false;
-      const bool stays = settle(begin, false);
-      if (left_out_) add_if(settle(all_in, true), all_in);  // else that is the same
-      add_if(stays, begin);
+      swallowed_ = false;
+      add_from(begin, HUGE_VAL);
+      add_from(begin, 1);
+      if (swallowed_) add_from(begin, kStub);
     }
   }
 
-  void add_if(bool stays, Candidate& found) {
-    if (stays && is_hub(found)) found_.push_back(std::move(found));
+  void add_from(Candidate found, double longest) {
+    if (settle(found, longest) && is_hub(found)) found_.push_back(std::move(found));
   }
 
   // Takes what lies in the ellipsoid, and so on, until that stays.  Of a vertex the middle of what is nearest to it tells:
   // lines may run along the rim of a head.
-  // @param with_tips or without those of limbs longer than it is thick, along which it might run.
+  // @param longest without the tips of limbs that are so many times as long as it is thick, along which it might run.
   // @return false where it comes to nothing, or does not stay.
-  bool settle(Candidate& found, bool with_tips) {
+  bool settle(Candidate& found, double longest) {
     for (int step = 0; step < kSteps; ++step) {
       stop_.did(8 * ends_.size());
       const double thick = diameter_of(found.within.count);
       std::vector<char> has(ends_.size());
       for (std::uint32_t v = 0; v < ends_.size(); ++v) {
-        if (!(moments_[v].count > 0) || !found.form.holds(middle_[v])) continue;
-        has[v] = with_tips || tip_of_[v] <= thick;
-        left_out_ = left_out_ || has[v] == 0;
+        has[v] = moments_[v].count > 0 && found.form.holds(middle_[v]) && tip_of_[v] <= longest * thick;
       }
       if (has == found.has) return true;
       found.within = moments_of(has);
@@ -163,13 +163,12 @@ class FindHubs {
     if (!(left.count > 0) || left.count > kTaken * found.within.count) return false;
     const HubEllipsoid form = ellipsoid_of(left);
     const auto axes = form.half_axes();
-    if (!is_thick(found, axes, left.count) || !leaves_limbs(found, diameter_of(left.count)) ||
-        form.is_bar() || axes[0] < kResolved * in_.lattice.spacing ||
+    if (!is_thick(found, axes, left.count) || form.is_bar() || axes[0] < kResolved * in_.lattice.spacing ||
         !is_sample_point(in_.lattice, (1 / in_.lattice.spacing) * form.centre))
       return false;
     const double filled = form.filled_by(left, in_.lattice.spacing);
     found.worth = left.count * (1 - kLack * (1 / filled - 1));
-    return found.worth > 0;
+    return found.worth > 0 && leaves_limbs(found, diameter_of(left.count));
   }
 
   // Noise moves the place where slices of limbs begin to grow, and their ellipsoid little.
@@ -212,13 +211,15 @@ class FindHubs {
     }
   }
 
-  // Whether enough is left of long limbs that end free, from their ends on.  An elephant's torso has most of its legs, but what of
-  // a spanner has most of a prong is its prongs.
+  // Whether enough is left of limbs that end free, from their ends on: something of each, as of the stub of a wrist on a palm.
+  // An elephant's torso has most of its legs, but what of a spanner has most of a prong is its prongs.
   // @param thick how thick the hub is.
-  bool leaves_limbs(const Candidate& found, double thick) const {
+  bool leaves_limbs(const Candidate& found, double thick) {
     const double within = diameter_of(found.within.count);
     for (const PartedLimb& limb : parted_.limbs) {
-      if (limb.length <= within) continue;
+      if (limb.length <= kStub * within) continue;
+      const bool is_long = limb.length > within;
+      const double least = is_long && thick < 2 * kFarThicker * limb.size ? kLeft * limb.length : 0;
       for (const bool from_last : {false, true}) {
         const auto at = [&](std::size_t n) { return point_from(from_last, limb.line, n); };
         const auto is_left = [&](std::size_t n) { return n < limb.line.size() && found.has[at(n)] == 0; };
@@ -226,7 +227,8 @@ class FindHubs {
         double left = 0;
         for (std::size_t n = 1; is_left(n - 1) && is_left(n); ++n)
           left += norm(in_.places[at(n)] - in_.places[at(n - 1)]);
-        if (left == 0 || (left < kLeft * limb.length && thick < 2 * kFarThicker * limb.size)) return false;
+        swallowed_ = swallowed_ || (left == 0 && !is_long);
+        if (left == 0 || left < least) return false;
       }
     }
     return true;
@@ -299,7 +301,7 @@ class FindHubs {
   PartedLines parted_;
   StopCheck stop_;
   std::vector<Candidate> found_;
-  bool left_out_ = false;  // tips, of what settles
+  bool swallowed_ = false;  // a limb, by what else would be a hub
 };
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSteep = 0.5;   // see draw_end()
 constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
+constexpr double kStepsOfLattice = 2;  // spacings: less far they tell more than the line does
 
 // Radii of a section, from an end: what may lead to a corner of it, and what mostly does, if the line is short: of its
 // way to the joint at most that share.
@@ -19,7 +20,9 @@ constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
 // and as large in its corners, how much of the line's way is reached straight on, at most.
 constexpr double kStays = 0.85, kFlat = 1.15, kReaches = 0.65;
 constexpr double kOfPlate = 1.7;  // as kFlat: sections end at two balls there
-constexpr double kWider = 1.1;    // times: no bar's end, but a head or a foot
+// Of the ball from where straight on leads, in a tube, what is at its end at least.
+constexpr double kLeadsOn = 0.75;
+constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
 
 constexpr double kFace = 1.5;  // balls: how far the surface is from the centre of an end, at most
 // Of a tube as long, what an end has: up to the one it is round, from the other on flat.
@@ -32,14 +35,23 @@ class DrawEnd {
   void run() {
     const std::size_t first =
         first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
-    const std::optional<Start> before_corner = start_before_corner(first);
-    draw(before_corner ? *before_corner : Start{first, outward_at(first)});
+    if (const std::optional<Start> before_corner = start_before_corner(first)) return draw(*before_corner);
+    const std::size_t inner = first_away([&](std::size_t n, double) { return n < first || is_in_end(n); });
+    draw({inner, outward_at(inner)});
   }
 
  private:
   const Vec3& at(std::size_t n) const { return places_[in_.line[n]]; }
 
   double ball(std::size_t n) const { return in_.surface.distance.nearest(at(n)); }
+
+  // Whether the distance to the surface grows there as it does out of a blunt end, in which a line may lead aside: no limb tapers
+  // so fast.
+  bool is_in_end(std::size_t n) const {
+    std::size_t next = n;
+    while (next + 2 < in_.line.size() && norm(at(next) - at(n)) < kStepsOfLattice * in_.spacing) ++next;
+    return ball(next) - ball(n) > kSteep * norm(at(next) - at(n));
+  }
 
   Vec3 outward_at(std::size_t n) const {
     return outward(places_, in_.line.subspan(n), ball(n) + in_.spacing, 0);
@@ -109,9 +121,11 @@ class DrawEnd {
   // Whether a line that turns beyond a vertex follows its limb there.
   bool turns(std::size_t from, const Vec3& along, double radius) const {
     const std::size_t before_end = first_away([&](std::size_t, double way) { return way < radius; });
-    if (radius < kFlat * ball(from) && ball(before_end) > kStays * ball(from)) return true;
     const double way = to_centre(at(from), along);
-    return way + in_.surface.distance.nearest(at(from) + way * along) < kReaches * norm(at(0) - at(from));
+    const double ball_there = in_.surface.distance.nearest(at(from) + way * along);
+    const bool follows = ball(before_end) > kStays * ball(from) || ball_there < kLeadsOn * ball(from);
+    if (radius < kFlat * ball(from) && follows) return true;
+    return way + ball_there < kReaches * norm(at(0) - at(from));
   }
 
   double to_centre(const Vec3& from, const Vec3& along) const {

@@ -311,6 +311,20 @@ TEST(LimbHubs, DoNotRunAlongALimb) {
   EXPECT_LT(norm(found.hubs[0].centre - middle), 2);
 }
 
+// A palm with a wrist that is shorter than it is thick, and thick enough for its ellipsoid to reach the wrist's end.
+TEST(LimbHubs, HoldNoWholeLimb) {
+  Cube palm(joined(moved(make_box(8, 8, 2), {0, 2.4, 0}), moved(make_box(4, 2.5, 2), {2, 0, 0})));
+  const std::uint32_t joint = palm.add({4, 6.4, 1}, 2);
+  palm.radius.assign(1, 2.2);
+  const std::uint32_t wrist = palm.go(joint, {0, -0.1, 0}, 55, 1.6);
+  palm.radius.resize(palm.places.size(), 1.6);
+  palm.go_out(joint, {{0.1, 0, 0}, {0.06, 0.08, 0}, {-0.06, 0.08, 0}, {-0.1, 0, 0}}, 2.2, 2, 4.2);
+  const LimbHubs found = palm.found();
+  ASSERT_EQ(found.hubs.size(), 1U);
+  EXPECT_EQ(found.of[wrist], kNone);
+  EXPECT_EQ(found.of[joint], 0U);
+}
+
 // A body twice as long as wide, with a joint in either half, and a line between them that leads round: from twice the
 // ellipsoid of either half it is one.
 TEST(LimbHubs, AreOneOfTwoHalves) {

@@ -70,6 +70,13 @@ TEST(LineEnds, AShortLineThatTurnsToACornerGoesStraightOn) {
       EXPECT_LT(std::hypot(place.x, place.y), 1e-6) << length << ' ' << place.z;
 }
 
+// Within a radius of it, by 21 degrees, as the last lines of a fine lattice do.
+TEST(LineEnds, OfALineThatTurnsAsideInAFlatEndIsInTheMiddle) {
+  const Vec3 end = drawn(bar(), 10, {0.35, 0, 9.9})[0];
+  EXPECT_LT(std::hypot(end.x, end.y), 0.05);
+  EXPECT_NEAR(end.z, 10, kSpacing);
+}
+
 TEST(LineEnds, OfARoundLimbIsTheCentreOfItsEnd) {
   const Mesh tube = tube_mesh(std::vector<Tube>{{{0, 0, 0}, {0, 0, 10}, 1}}, 0.15);
   EXPECT_NEAR(drawn(tube, 10, {0, 0, 10.3})[0].z, 10, kSpacing);
@@ -122,6 +129,23 @@ TEST(LineEnds, OfALimbThatBendsIsTheCentreOfItsEnd) {
   for (const double bend : {4., 5.})
     for (const double degrees : {45., 90., 135.})
       for (const double last : {1., 0.7}) expect_end_of_bent_limb(bend, degrees, last);
+}
+
+// It bends and tapers ever faster: straight on from where it is thick is the wall.
+TEST(LineEnds, OfABananaIsTheCentreOfItsTip) {
+  std::vector<Vec3> places;
+  std::vector<Tube> tubes;
+  for (double t = 1; t > 0.3; t -= 0.02) {
+    places.push_back({4 * std::sin(1.9 * t), 0, -7.75 * std::pow(t, 1.1)});
+    const double radius = 0.45 + 0.65 * std::pow(std::sin(std::numbers::pi * (t - 0.05) / 0.95), 0.7);
+    if (places.size() > 1) tubes.push_back({places.back(), *(places.end() - 2), radius});
+  }
+  const Vec3 end = places[0], tip = end + 0.05 * unit(end - places[2]);
+  places.insert(places.begin(), {tip, 0.5 * (end + tip)});
+  std::vector<std::uint32_t> line(places.size());
+  std::iota(line.begin(), line.end(), 0U);
+  draw_end({LimbSurface(tube_mesh(tubes, 0.1)), kSpacing, line, 0, tip}, places);
+  EXPECT_LT(norm(places[0] - end), 0.35);
 }
 
 // A head on a neck: it is no bar.
