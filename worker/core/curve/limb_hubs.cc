@@ -23,7 +23,7 @@ constexpr double kLack = 2;       // of what a hub has, for each that its ellips
 constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
 // Of a limb that is longer than a hub is thick, what this leaves at least, unless it is so many times as thick.
 constexpr double kLeft = 1. / 3, kFarThicker = 2.5;
-// Of a hub's thickness: shorter limbs are spurs in it.  One that would have a longer one whole is tried without it.
+// Of a hub's thickness.  Shorter limbs are spurs in it; of one that has a longer one whole another is looked for.
 constexpr double kStub = 0.5;
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
 constexpr double kTaper = 0.1;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
@@ -57,6 +57,7 @@ class FindHubs {
     PlaceMoments within;         // what has settled
     std::vector<char> has = {};  // per vertex
     double worth = 0;            // points, less kLack of what its ellipsoid lacks
+    bool has_stub = false;       // the whole of a limb that is about as long as it is thick
   };
 
   bool is_joint(std::uint32_t v) const { return ends_[v] > 2; }
@@ -118,13 +119,15 @@ class FindHubs {
         has[v] = 1;
     const PlaceMoments all = moments_of(has);
     if (!(all.count > 0)) return;
+    const std::size_t before = found_.size();
     for (const double scale : kScales) {
       Candidate begin{ellipsoid_of(all), all};
       begin.form.form = (1 / (scale * scale)) * begin.form.form;
-      swallowed_ = false;
       add_from(begin, HUGE_VAL);
       add_from(begin, 1);
-      if (swallowed_) add_from(begin, kStub);
+      if (std::any_of(found_.begin() + static_cast<std::ptrdiff_t>(before), found_.end(),
+                      [](const Candidate& found) { return found.has_stub; }))
+        add_from(begin, kStub);
     }
   }
 
@@ -134,7 +137,7 @@ class FindHubs {
 
   // Takes what lies in the ellipsoid, and so on, until that stays.  Of a vertex the middle of what is nearest to it tells:
   // lines may run along the rim of a head.
-  // @param longest without the tips of limbs that are so many times as long as it is thick, along which it might run.
+  // @param longest the tips of limbs that are longer than so many times as it is thick, along which it might run, are left out.
   // @return false where it comes to nothing, or does not stay.
   bool settle(Candidate& found, double longest) {
     for (int step = 0; step < kSteps; ++step) {
@@ -211,10 +214,10 @@ class FindHubs {
     }
   }
 
-  // Whether enough is left of limbs that end free, from their ends on: something of each, as of the stub of a wrist on a palm.
-  // An elephant's torso has most of its legs, but what of a spanner has most of a prong is its prongs.
+  // Whether enough is left of long limbs that end free, from their ends on.  An elephant's torso has most of its legs, but what of
+  // a spanner has most of a prong is its prongs.  Tells whether one has the whole of a shorter one, as a palm of its wrist.
   // @param thick how thick the hub is.
-  bool leaves_limbs(const Candidate& found, double thick) {
+  bool leaves_limbs(Candidate& found, double thick) const {
     const double within = diameter_of(found.within.count);
     for (const PartedLimb& limb : parted_.limbs) {
       if (limb.length <= kStub * within) continue;
@@ -227,8 +230,8 @@ class FindHubs {
         double left = 0;
         for (std::size_t n = 1; is_left(n - 1) && is_left(n); ++n)
           left += norm(in_.places[at(n)] - in_.places[at(n - 1)]);
-        swallowed_ = swallowed_ || (left == 0 && !is_long);
-        if (left == 0 || left < least) return false;
+        if (is_long && (left == 0 || left < least)) return false;
+        found.has_stub = found.has_stub || left == 0;
       }
     }
     return true;
@@ -265,9 +268,11 @@ class FindHubs {
            (sizes.size() < 2 || radius > kThick * sizes[1]);
   }
 
-  // Of those in one place, where the middle of one lies in the other, that of most worth.
+  // Of those in one place, where the middle of one lies in the other, that of most worth; but one that has a stub only where
+  // there is no other.
   LimbHubs chosen() {
     std::ranges::stable_sort(found_, std::greater<>(), &Candidate::worth);
+    std::ranges::stable_partition(found_, std::logical_not(), &Candidate::has_stub);
     LimbHubs chosen{{}, std::vector<std::uint32_t>(ends_.size(), kNone)};
     for (const Candidate& found : found_) {
       stop_.did(2 * ends_.size());
@@ -301,7 +306,6 @@ class FindHubs {
   PartedLines parted_;
   StopCheck stop_;
   std::vector<Candidate> found_;
-  bool swallowed_ = false;  // a limb, by what else would be a hub
 };
 
 }  // namespace

@@ -37,19 +37,20 @@ struct LimbHubsInput {
 /// A hub is what lies in its own ellipsoid, that with its moments (see HubEllipsoid::of()), by the middle of what is nearest
 /// to each vertex.  From every body of what no limb has (see parted_lines()), as far as it touches, with what lies within half
 /// the radius of its joints, and from twice its ellipsoid, this is taken anew until it stays: once all, and once without the
-/// outer half of limbs that end free and are longer than it is thick, as a palm would take its forearm, or, where that has a
-/// whole one, half as long, as a palm would the stub of its wrist.  Its limbs begin where they leave the ellipsoid, or within,
-/// where their sections are as beyond, or as they taper there, or beyond, where these suddenly grow.
+/// outer half of limbs that end free and are longer than it is thick, as a palm would take its forearm; if that has the
+/// whole of a limb that is longer than half its thickness, as a palm of a short wrist, once more without that of limbs as
+/// long.  Its limbs begin where they leave the ellipsoid, or within, where their sections are as beyond, or as they taper
+/// there, or beyond, where these suddenly grow.
 ///
 /// It is a hub if what they leave
 /// - is 1.4 times as thick, as a ball, as the thickest limb and 1.55 times as the others,
 /// - is less than 1.2 times what lay in the ellipsoid,
 /// - fills more than two thirds of an ellipsoid, no network, is not 2.25 times as long as wide, a limb, has its middle in the
 ///   solid, no ring, and is three spacings thick,
-/// - and there is in it a joint, and no free end of a limb that is longer than half as it is thick, nor two thirds of one
-///   that is longer than it is thick unless it is 2.5 times as thick as that, nor the middle of one and neither end.
+/// - and there is in it a joint, and neither the free end of a limb that is longer than it is thick, nor two thirds unless it
+///   is 2.5 times as thick, nor the middle of one and neither end.
 /// Of those in one place, where the middle of one lies in the other, it is the one that has most, less twice what its
-/// ellipsoid lacks.
+/// ellipsoid lacks, of those that have no limb whole if there are any.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core

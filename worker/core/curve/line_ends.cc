@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSteep = 0.5;   // see draw_end()
 constexpr double kEndMoves = 3;  // spacings: how far from where a tip is known to lie about it is looked for
-constexpr double kStepsOfLattice = 2;  // spacings: less far they tell more than the line does
+constexpr double kBaseline = 2;  // spacings: over less, the lattice's steps tell more than the line
 
 // Radii of a section, from an end: what may lead to a corner of it, and what mostly does, if the line is short: of its
 // way to the joint at most that share.
@@ -20,7 +20,7 @@ constexpr double kTurned = 0.87;  // cosine of 30 degrees: less where it does
 // and as large in its corners, how much of the line's way is reached straight on, at most.
 constexpr double kStays = 0.85, kFlat = 1.15, kReaches = 0.65;
 constexpr double kOfPlate = 1.7;  // as kFlat: sections end at two balls there
-// Of the ball from where straight on leads, in a tube, what is at its end at least.
+// Straight on, in a tube: the ball at the end over that at the start; where it is less, there is the wall.
 constexpr double kLeadsOn = 0.75;
 constexpr double kWider = 1.1;  // times: no bar's end, but a head or a foot
 
@@ -36,8 +36,10 @@ class DrawEnd {
     const std::size_t first =
         first_away([&](std::size_t, double way) { return way < kEndMoves * in_.spacing; });
     if (const std::optional<Start> before_corner = start_before_corner(first)) return draw(*before_corner);
-    const std::size_t inner = first_away([&](std::size_t n, double) { return n < first || is_in_end(n); });
-    draw({inner, outward_at(inner)});
+    const std::size_t inner =
+        first_away([&](std::size_t n, double way) { return n < first || (way < ball(n) && is_in_end(n)); });
+    const std::size_t start = inner < straight() ? inner : first;
+    draw({start, outward_at(start)});
   }
 
  private:
@@ -45,11 +47,13 @@ class DrawEnd {
 
   double ball(std::size_t n) const { return in_.surface.distance.nearest(at(n)); }
 
-  // Whether the distance to the surface grows there as it does out of a blunt end, in which a line may lead aside: no limb tapers
-  // so fast.
+  // Vertices before the joint.
+  std::size_t straight() const { return in_.line.size() - std::min(in_.in_joint + 1, in_.line.size()); }
+
+  // Whether the distance to the surface grows there as it does out of a blunt end, in which a line may lead aside.
   bool is_in_end(std::size_t n) const {
     std::size_t next = n;
-    while (next + 2 < in_.line.size() && norm(at(next) - at(n)) < kStepsOfLattice * in_.spacing) ++next;
+    while (next + 1 < in_.line.size() && norm(at(next) - at(n)) < kBaseline * in_.spacing) ++next;
     return ball(next) - ball(n) > kSteep * norm(at(next) - at(n));
   }
 
@@ -90,15 +94,14 @@ class DrawEnd {
   // Where a line that leads into a corner leaves the middle.
   // @param first vertices, which may be of the end.
   std::optional<Start> start_before_corner(std::size_t first) const {
-    const std::size_t straight = in_.line.size() - std::min(in_.in_joint + 1, in_.line.size());
     const std::size_t inner = first_away([&](std::size_t n, double way) {
       const double radius = section(at(n), outward_at(n)).radius;
       return n < first || way < kNearCorner * radius ||
-             (way < kCorner * radius && static_cast<double>(n) < kInner * static_cast<double>(straight));
+             (way < kCorner * radius && static_cast<double>(n) < kInner * static_cast<double>(straight()));
     });
-    if (inner >= straight) return std::nullopt;
+    if (inner >= straight()) return std::nullopt;
     const double stretch =
-        std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight) - at(inner)));
+        std::min(kCorner * section(at(inner), outward_at(inner)).radius, norm(at(straight()) - at(inner)));
     const Vec3 along = outward(places_, in_.line.subspan(inner), stretch, -stretch);
     if (along == Vec3{}) return std::nullopt;
     const double radius = section(at(inner), along).radius;

@@ -29,7 +29,8 @@ struct LineEndInput {
 /// Draws the free end of a line, straight on.  A round one ends at its centre: where the distance to the surface begins to
 /// fall by more than half of the way.  The flat one of a bar ends at its face: beyond the centre sections are as large as
 /// before.  At a bar's end lines lead into a corner, along which that distance falls slowly; these begin anew where they
-/// leave the middle, as do those that turn aside in a plate.
+/// leave the middle, as do those that turn aside in a plate, but for limbs that bend or taper there, whose wall is straight
+/// on.  The others go straight on from where the ball of a blunt end is whole.
 void draw_end(const LineEndInput& input, std::vector<Vec3>& places);
 
 }  // namespace affskel::core

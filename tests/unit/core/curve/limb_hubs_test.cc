@@ -321,8 +321,20 @@ TEST(LimbHubs, HoldNoWholeLimb) {
   palm.go_out(joint, {{0.1, 0, 0}, {0.06, 0.08, 0}, {-0.06, 0.08, 0}, {-0.1, 0, 0}}, 2.2, 2, 4.2);
   const LimbHubs found = palm.found();
   ASSERT_EQ(found.hubs.size(), 1U);
-  EXPECT_EQ(found.of[wrist], kNone);
+  for (std::uint32_t n = 0; n < 10; ++n) EXPECT_EQ(found.of[wrist - n], kNone) << n;
   EXPECT_EQ(found.of[joint], 0U);
+}
+
+// Joints lie under an octopus's head, and a line that leads up to its top is longer than half as that is thick.
+TEST(LimbHubs, HoldALineThatEndsInThemWhereNoneElseIsThere) {
+  for (const int vertices : {20, 26, 30, 35}) {
+    Cube head;
+    const std::uint32_t joint = head.add(head.middle - Vec3{0, 0, 1.5}, 2);
+    head.go_out(joint, kCross, 2.2, 2);
+    head.go(joint, {0, 0, 0.1}, vertices, 0.5);
+    head.radius.resize(head.places.size(), 0.5);
+    EXPECT_EQ(head.found().hubs.size(), 1U) << vertices;
+  }
 }
 
 // A body twice as long as wide, with a joint in either half, and a line between them that leads round: from twice the

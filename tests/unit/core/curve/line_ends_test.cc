@@ -70,11 +70,22 @@ TEST(LineEnds, AShortLineThatTurnsToACornerGoesStraightOn) {
       EXPECT_LT(std::hypot(place.x, place.y), 1e-6) << length << ' ' << place.z;
 }
 
-// Within a radius of it, by 21 degrees, as the last lines of a fine lattice do.
+// Within a radius of it, by 24 degrees, as the last lines of a fine lattice do.
 TEST(LineEnds, OfALineThatTurnsAsideInAFlatEndIsInTheMiddle) {
   const Vec3 end = drawn(bar(), 10, {0.35, 0, 9.9})[0];
   EXPECT_LT(std::hypot(end.x, end.y), 0.05);
   EXPECT_NEAR(end.z, 10, kSpacing);
+}
+
+// On a body as wide as it is long the distance to the surface grows all the way to the joint, and there lines turn.
+TEST(LineEnds, ALineThatTurnsInAJointGoesStraightOnBeforeIt) {
+  const Mesh cube = make_box(10, 10, 10, 4);
+  std::vector<Vec3> places;
+  for (double z = 9.5; z > 5.5; z -= kSpacing) places.push_back({5 + 0.5 * std::max(0.0, 7 - z), 5, z});
+  std::vector<std::uint32_t> line(places.size());
+  std::iota(line.begin(), line.end(), 0U);
+  draw_end({LimbSurface(cube), kSpacing, line, 15, {5, 5, 9.5}}, places);
+  EXPECT_NEAR(places[0].x, 5, 1e-6);
 }
 
 TEST(LineEnds, OfARoundLimbIsTheCentreOfItsEnd) {
