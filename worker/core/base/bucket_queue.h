@@ -34,30 +34,22 @@ class BucketQueue {
     if (!find_next()) return false;
     Bucket& bucket = near(current_);
     --near_items_;
-    item = std::move(bucket.first->items[bucket.begin % kItems]);
-    if (++bucket.begin % kItems == 0) drop_block(bucket);
+    item = std::move(first_of(bucket));
+    take_from(bucket);
     return true;
   }
 
-  /// Takes all items of the least number there is: a wave, for for_each_in_wave() until the next is taken.  What is put
-  /// in with that number afterwards is of the next one.
+  /// Takes all items of the least number there is: a wave.  What is put in with that number afterwards is of the next one.
+  /// @param wave these, in the order in which they came, instead of what it had.
   /// @return false when nothing is left.
-  bool pop_wave() {
-    clear(wave_);
+  bool pop_wave(std::vector<Item>& wave) {
+    wave.clear();
     if (!find_next()) return false;
-    std::swap(wave_, near(current_));
-    near_items_ -= wave_.end - wave_.begin;
+    Bucket& bucket = near(current_);
+    near_items_ -= bucket.end - bucket.begin;
+    for (; bucket.begin < bucket.end; take_from(bucket)) wave.push_back(std::move(first_of(bucket)));
+    clear(bucket);
     return true;
-  }
-
-  /// Calls visit(item) for those of the wave, in order; it may put in others.
-  template <class Visit>
-  void for_each_in_wave(const Visit& visit) const {
-    const Block* block = wave_.first;
-    for (std::size_t n = wave_.begin; n < wave_.end; ++n) {
-      visit(block->items[n % kItems]);
-      if ((n + 1) % kItems == 0) block = block->next;
-    }
   }
 
   /// The number of the last item taken.
@@ -96,6 +88,11 @@ class BucketQueue {
     return true;
   }
 
+  Item& first_of(Bucket& bucket) { return bucket.first->items[bucket.begin % kItems]; }
+  void take_from(Bucket& bucket) {
+    if (++bucket.begin % kItems == 0) drop_block(bucket);
+  }
+
   void append_block(Bucket& bucket) {
     if (unused_ == nullptr) {
       store_.push_back(std::make_unique<Blocks>());
@@ -123,7 +120,6 @@ class BucketQueue {
       std::vector<Bucket>(kNear);  // of current_ .. current_ + kNear - 1, by their remainders
   std::size_t near_items_ = 0;
   std::map<std::size_t, Bucket> far_;
-  Bucket wave_;
   std::size_t current_ = 0;
 };
 

@@ -54,7 +54,7 @@ class CellValues {
   static constexpr std::uint32_t kPlaces = 27;
   static constexpr std::uint32_t kTogether = 4;  // owners of others that one number is kept for
 
-  std::size_t index(DualComplex::Cell cell) const {
+  [[gnu::always_inline]] std::size_t index(DualComplex::Cell cell) const {
     const std::uint32_t cube = DualComplex::cube_of(cell), place = DualComplex::place_of(cell);
     if ((DualComplex::kUpperPlaces >> place & 1U) != 0) return per_cube_ * std::size_t{cube} + slot_[place];
     const auto owners = complex_->other_owners();

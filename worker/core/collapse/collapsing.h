@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -107,8 +108,7 @@ class Collapsing {
   }
 
  private:
-  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kClaimed = 0x20, kCount = kClaimed - 1,
-                                kFree = kThere | 1;
+  static constexpr std::uint8_t kThere = 0x80, kFixed = 0x40, kCount = 0x1F, kFree = kThere | 1;
 
   std::uint8_t& state(Cell cell) { return states_[cell]; }
   std::uint8_t state(Cell cell) const { return states_[cell]; }
@@ -139,44 +139,34 @@ class Collapsing {
   }
 
   // Two pairs of a wave are in each other's way only if they have the coface in common: between a cell and one of two
-  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order.  What is
-  // free of a wave at first is when its turn comes: a free cell stays so as long as its coface is there.
+  // dimensions more there are two, so that the coface of a free cell is not free.  Nothing else needs an order; sorted, these
+  // are beside each other, and cells are met as they lie in memory.  What is free of a wave at first is when its turn comes: a
+  // free cell stays so as long as its coface is there.
   template <class Rules>
   void go_on(Rules& rules) {
     StopCheck stop(context_);
-    std::vector<Cell> contested;
-    std::vector<Pair> rivals;
-    while (queue_.pop_wave()) {
+    std::vector<Pair> wave;
+    while (queue_.pop_wave(wave)) {
       const double now = static_cast<double>(queue_.current()) * kStep;
-      contested.clear();
-      queue_.for_each_in_wave([&](Pair pair) {
-        const Cell coface = coface_of(pair);
-        if (!has(coface)) return;
-        if ((state(coface) & kClaimed) != 0) contested.push_back(coface);
-        state(coface) |= kClaimed;
-      });
-      for (const Cell coface : contested) state(coface) &= static_cast<std::uint8_t>(~kClaimed);
-      rivals.clear();
-      queue_.for_each_in_wave([&](Pair pair) {
-        const Cell coface = coface_of(pair);
-        if (!has(coface)) return;
+      std::sort(wave.begin(), wave.end());
+      for (auto first = wave.begin(), last = first; first != wave.end(); first = last) {
+        const Cell coface = coface_of(*first);
+        while (last != wave.end() && coface_of(*last) == coface) ++last;
+        if (!has(coface)) continue;
         stop.did(100);
-        if ((state(coface) & kClaimed) != 0)
-          remove(pair, now, rules);
-        else
-          rivals.push_back(pair);
-      });
-      std::sort(rivals.begin(), rivals.end());
-      for (auto first = rivals.begin(), last = first; first != rivals.end(); first = last) {
-        while (last != rivals.end() && coface_of(*last) == coface_of(*first)) ++last;
-        const auto rank = [&](Pair pair) {
-          return CellRank(complex_, rules.level(cell_of(pair)), cell_of(pair));
-        };
-        remove(*std::min_element(first, last, [&](Pair a, Pair b) { return rank(a) < rank(b); }), now, rules);
+        remove(last - first == 1 ? *first : lowest({first, last}, rules), now, rules);
       }
       if constexpr (requires { rules.wave_ends(); }) rules.wave_ends();
       if constexpr (requires { rules.next_cut(); }) take_cuts(now, rules);
     }
+  }
+
+  template <class Rules>
+  Pair lowest(std::span<const Pair> rivals, const Rules& rules) const {
+    const auto rank = [&](Pair pair) {
+      return CellRank(complex_, rules.level(cell_of(pair)), cell_of(pair));
+    };
+    return *std::min_element(rivals.begin(), rivals.end(), [&](Pair a, Pair b) { return rank(a) < rank(b); });
   }
 
   template <class Rules>

@@ -281,20 +281,21 @@ void find_limbs(const Solid& solid, const Lattice& lattice, const FrameField& fi
                 ExecutionContext* context, RidgeBasis& basis) {
   const DualComplex& complex = basis.complex;
   ThinnedSolid thinned = thinned_solid(complex, basis.radius, field.erosion, context);
-  CellSet left = collapsed(complex, thinned.cells, {}, context);
   const std::optional<NoisySolid> noisy = noisy_solid(solid, lattice, basis);
+  const bool has_cuts = noisy || basis.topology.holes > 0;
+  CellSet left;  // lines without ends: what limbs leave, where nothing is cut
+  if (has_cuts) left = collapsed(complex, thinned.cells, {}, context);
   std::vector<DualComplex::Cell> cuts;
   if (noisy) {
     cuts = bored_cells(*noisy, left, {}, context).cells;
-  } else if (basis.topology.holes > 0) {
+  } else if (has_cuts) {
     CellSet filled = left;
     cuts = fill_tunnels(solid, lattice, complex, {}, basis.radius, filled, context).edges;
   }
   LimbTips found = limb_tips(std::move(thinned), RidgeConstants::limb_reach, cuts, context);
   basis.limbs = std::move(found.tips);
-  if (noisy) {
-    left = std::move(found.left);
-  } else {  // the skeleton has the loops
+  if (noisy || !has_cuts) left = std::move(found.left);
+  if (!noisy) {  // the skeleton has the loops
     const auto cut = std::ranges::stable_partition(basis.limbs, std::logical_not(), &LimbTip::is_cut);
     basis.cut_limbs.assign(cut.begin(), cut.end());
     basis.limbs.erase(cut.begin(), cut.end());
