@@ -98,7 +98,7 @@ void RidgeOfField::report_ridge(const core::RidgeSheet& sheet, double threshold,
         return vertex.kind == core::SkeletonKind::kRidge || vertex.kind == core::SkeletonKind::kCurve;
       });
   const double share = static_cast<double>(on_ridge) / static_cast<double>(sheet.vertices.size());
-  add_advice(core::little_ridge_advice(share, threshold), message);
+  add_advice(core::little_ridge_advice(share, threshold, sheet.strongest), message);
 }
 
 void RidgeOfField::append_points(const core::SheetMesh& skeleton, v1::SkeletonPoints& message) const {

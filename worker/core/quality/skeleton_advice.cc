@@ -228,15 +228,15 @@ Advice flat_solid_advice(const Lattice& lattice, std::span<const float> radius, 
       "has their sheets.");
 }
 
-Advice little_ridge_advice(double share, double threshold) {
+Advice little_ridge_advice(double share, double threshold, double strongest) {
   if (share >= kLittleRidge) return {};
-  const std::string lower = base::rounded(threshold / kLowerThreshold, 2);
-  return {
+  const std::string told =
       (share == 0 ? "none" : "only " + base::rounded(100 * share, 2) + " %") +
-          " of it lies on a ridge as strong as the threshold; the rest are ways and membranes, which keep the "
-          "solid's topology. A threshold of " +
-          lower + " may find more.",
-      {{"threshold", lower}}};
+      " of it lies on a ridge as strong as the threshold; the rest are ways and membranes, which keep the "
+      "solid's topology.";
+  if (!(strongest > 0)) return {told + " No ridge comes near it.", {}};
+  const std::string lower = base::rounded(std::min(threshold, strongest) / kLowerThreshold, 2);
+  return {told + " A threshold of " + lower + " may find more.", {{"threshold", lower}}};
 }
 
 Advice stretched_limbs_advice(const Lattice& lattice) {

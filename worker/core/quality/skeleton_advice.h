@@ -70,8 +70,10 @@ Advice flat_solid_advice(const Lattice& lattice, std::span<const float> radius, 
 
 /// That hardly any of a skeleton of `ridge` is ridge, so that nearly all of it are ways and membranes, which join what
 /// is found or keep the solid's topology; else nothing.
-/// @param share of its vertices that lie on ridges. @param threshold of these, for a lower one to try.
-Advice little_ridge_advice(double share, double threshold);
+/// @param share of its vertices that lie on ridges.
+/// @param threshold of these: a third of it is suggested, or of the strongest ridge that there is.
+/// @param strongest this one's strength, see RidgeSheet; nothing is suggested for 0.
+Advice little_ridge_advice(double share, double threshold, double strongest);
 
 /// That limbs of `curve` are told in a frame that stretches the solid, so that some may not be, and the frame in which
 /// they are told as they are; nothing where it hardly does.

@@ -186,6 +186,7 @@ class SheetMaker {
     sheet.fragments = chosen_.fragments;
     sheet.limbs = chosen_.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
     sheet.opened = left.opened;
+    sheet.strongest = strongest();
     static_cast<SkeletonMesh&>(sheet) = placed(left.cells);
     sheet.unreached = unreached_ends(solid_, lattice_, chosen_.left_out, mesh_places(solid_, lattice_, sheet),
                                      options_.context);
@@ -212,6 +213,14 @@ class SheetMaker {
     }
     cells_ = edge_cells(lattice_, basis_.complex, parts_, edges_);
     surface_ = contour(lattice_, parts_, cells_, crossings, options_.context).vertices;
+  }
+
+  double strongest() const {
+    double most = 0;
+    for (const double strength : strengths_) most = std::max(most, strength);
+    for (const RidgeCurve& curve : curves_)
+      for (const SheetVertex& vertex : curve.vertices) most = std::max(most, vertex.strength);
+    return most;
   }
 
   // What is left of the solid, but for fragments.

@@ -240,12 +240,20 @@ TEST(FlatSolidAdvice, IsForSolidsThatLinesLeaveOut) {
 }
 
 TEST(LittleRidgeAdvice, SuggestsALowerThreshold) {
-  EXPECT_TRUE(little_ridge_advice(0.5, 6).text.empty());
-  const Advice none = little_ridge_advice(0, 6);
+  EXPECT_TRUE(little_ridge_advice(0.5, 6, 9).text.empty());
+  const Advice none = little_ridge_advice(0, 6, 9);
   EXPECT_TRUE(says(none, "none of it lies on a ridge")) << none.text;
   EXPECT_TRUE(suggests(none, "threshold", "2"));
   EXPECT_TRUE(is_plain(none));
-  EXPECT_TRUE(says(little_ridge_advice(0.003, 6), "only 0.3 % of it"));
+  EXPECT_TRUE(says(little_ridge_advice(0.003, 6, 9), "only 0.3 % of it"));
+}
+
+TEST(LittleRidgeAdvice, SuggestsNoneAboveWhatThereIs) {
+  EXPECT_TRUE(suggests(little_ridge_advice(0, 6, 1.5), "threshold", "0.5"));
+  const Advice none = little_ridge_advice(0, 6, 0);
+  EXPECT_TRUE(none.settings.empty());
+  EXPECT_TRUE(says(none, "No ridge comes near it")) << none.text;
+  EXPECT_TRUE(is_plain(none));
 }
 
 TEST(StretchedLimbsAdvice, IsForFramesThatStretch) {

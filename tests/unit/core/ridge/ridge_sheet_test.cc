@@ -339,6 +339,18 @@ TEST(RidgeSheet, OfABasisIsTheSameAtEveryThresholdAndNumberOfThreads) {
   EXPECT_THROW(ridge_sheet(other.solid, other.lattice, other.field, basis), CoreError);
 }
 
+TEST(RidgeSheet, TellsTheStrongestRidgeBelowItsThreshold) {
+  const ErodedSolid torus(make_torus(3, 1, 1024), axes(2.0 / 12), "triangles");
+  const double strongest = ridge_of(torus).strongest;
+  EXPECT_GT(strongest, 0);
+  for (const double times : {2., 7., 9.}) {
+    RidgeSheetOptions options;
+    options.bounds = {times * strongest, times * strongest};
+    EXPECT_EQ(ridge_of(torus, options).strongest, times * RidgeConstants::weak_share < 1 ? strongest : 0)
+        << times;
+  }
+}
+
 // Of a rod with a ball's halves at its ends, drawn out; what is not told keeps its place.
 TEST(RidgeSheet, HasLinesThatLeadToTheTips) {
   const auto rod = [](const Vec3& p) { return norm(p - Vec3{0, 0, std::clamp(p.z, -4.0, 4.0)}) - 1; };
