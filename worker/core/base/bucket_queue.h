@@ -47,6 +47,7 @@ class BucketQueue {
     if (!find_next()) return false;
     Bucket& bucket = near(current_);
     near_items_ -= bucket.end - bucket.begin;
+    wave.reserve(bucket.end - bucket.begin);
     for (; bucket.begin < bucket.end; take_from(bucket)) wave.push_back(std::move(first_of(bucket)));
     clear(bucket);
     return true;

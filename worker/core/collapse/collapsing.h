@@ -148,6 +148,7 @@ class Collapsing {
     std::vector<Pair> wave;
     while (queue_.pop_wave(wave)) {
       const double now = static_cast<double>(queue_.current()) * kStep;
+      stop.did(10 * wave.size());
       std::sort(wave.begin(), wave.end());
       for (auto first = wave.begin(), last = first; first != wave.end(); first = last) {
         const Cell coface = coface_of(*first);

@@ -73,7 +73,10 @@ class LineThinning {
     if (left == 0 && !cuts_.empty() && cuts_.contains(cell)) bared_cuts_.push_back(cell);
   }
 
-  void wave_ends() { solid_.fronts.end_wave(); }
+  void wave_ends() {
+    solid_.fronts.end_wave();
+    meet();
+  }
 
   std::optional<Cell> next_cut() {
     if (bared_cuts_.empty()) return std::nullopt;
@@ -100,7 +103,7 @@ class LineThinning {
       line.reach = std::max(line.reach, way / std::max(birth - 1, kMinLength));
       line.begun = line.begun || way >= std::max(kBegun * (birth - 1), kMinLength);
     }
-    arrive(end, number);
+    arrived_.emplace_back(end, number);
   }
 
  private:
@@ -262,13 +265,27 @@ class LineThinning {
     return here;
   }
 
-  // Of several lines that meet at a vertex the last goes on; of those that come at once the one from the highest.
-  void arrive(Cell end, std::uint32_t number) {
-    std::uint32_t& last = line_at_[end];
-    if (last == DualComplex::kNone || is_later(lines_[number], lines_[last])) std::swap(last, number);
-    if (number == DualComplex::kNone) return;
+  // Of several lines that meet at a vertex the last goes on; of those that come at once, in any order, the one from the
+  // highest.
+  void meet() {
+    std::ranges::sort(arrived_);
+    for (auto first = arrived_.begin(), next = first; first != arrived_.end(); first = next) {
+      const Cell end = first->first;
+      next = std::find_if(first, arrived_.end(), [&](const auto& arrival) { return arrival.first != end; });
+      const std::uint32_t last = std::max_element(first, next, [&](const auto& a, const auto& b) {
+                                   return is_later(lines_[b.second], lines_[a.second]);
+                                 })->second;
+      if (const std::uint32_t before = std::exchange(line_at_[end], last); before != DualComplex::kNone)
+        join(before, lines_[last]);
+      for (; first != next; ++first)
+        if (first->second != last) join(first->second, lines_[last]);
+    }
+    arrived_.clear();
+  }
+
+  // One that ends where another goes on.
+  void join(std::uint32_t number, Line& line) {
     const Line& other = lines_[number];
-    Line& line = lines_[last];
     if (other.is_cut) lead_from_cut(line);
     if (!line.begun && !other.begun && other.length() >= kSameEnd * line.length()) {
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -291,7 +308,8 @@ class LineThinning {
   std::set<Cell> cut_ends_;
   std::set<Cell> cuts_;
   std::vector<Cell> bared_cuts_;
-  std::deque<Line> lines_;  // under way, and places that are free
+  std::vector<std::pair<Cell, std::uint32_t>> arrived_;  // in this wave: at which vertex, and which line
+  std::deque<Line> lines_;                               // under way, and places that are free
   std::vector<std::uint32_t> free_;
   std::uint32_t begun_ = 0;
   std::vector<std::pair<std::uint32_t, LimbTip>> tips_;  // by which line

@@ -23,8 +23,9 @@ constexpr double kLack = 2;       // of what a hub has, for each that its ellips
 constexpr double kTaken = 1.2;    // times what lies in its ellipsoid, with all that its limbs leave it
 // Of a limb that is longer than a hub is thick, what this leaves at least, unless it is so many times as thick.
 constexpr double kLeft = 1. / 3, kFarThicker = 2.5;
-// Of a hub's thickness.  Shorter limbs are spurs in it; of one that has a longer one whole another is looked for.
-constexpr double kStub = 0.5;
+// Of a hub's thickness: shorter limbs are spurs in it.  What one that has a longer one whole counts, of its worth: another is
+// looked for.
+constexpr double kStub = 0.5, kWithStub = 0.1;
 constexpr double kOfTube = 1.1;  // times a limb's own sections: where they are larger, a hub begins
 constexpr double kTaper = 0.1;  // of a way towards a hub: what a limb's sections grow by at most, as a cone's
 constexpr double kResolved = 1.5;     // spacings: less of an axis tells no shape
@@ -268,11 +269,11 @@ class FindHubs {
            (sizes.size() < 2 || radius > kThick * sizes[1]);
   }
 
-  // Of those in one place, where the middle of one lies in the other, that of most worth; but one that has a stub only where
-  // there is no other.
+  // Of those in one place, where the middle of one lies in the other, that of most worth.
   LimbHubs chosen() {
-    std::ranges::stable_sort(found_, std::greater<>(), &Candidate::worth);
-    std::ranges::stable_partition(found_, std::logical_not(), &Candidate::has_stub);
+    std::ranges::stable_sort(found_, std::greater<>(), [](const Candidate& found) {
+      return found.has_stub ? kWithStub * found.worth : found.worth;
+    });
     LimbHubs chosen{{}, std::vector<std::uint32_t>(ends_.size(), kNone)};
     for (const Candidate& found : found_) {
       stop_.did(2 * ends_.size());

@@ -50,7 +50,7 @@ struct LimbHubsInput {
 /// - and there is in it a joint, and neither the free end of a limb that is longer than it is thick, nor two thirds unless it
 ///   is 2.5 times as thick, nor the middle of one and neither end.
 /// Of those in one place, where the middle of one lies in the other, it is the one that has most, less twice what its
-/// ellipsoid lacks, of those that have no limb whole if there are any.
+/// ellipsoid lacks; if it has a limb whole that is longer than half its thickness this counts a tenth.
 LimbHubs limb_hubs(const LimbHubsInput& input);
 
 }  // namespace affskel::core

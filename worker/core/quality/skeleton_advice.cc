@@ -234,7 +234,7 @@ Advice little_ridge_advice(double share, double threshold, double strongest) {
       (share == 0 ? "none" : "only " + base::rounded(100 * share, 2) + " %") +
       " of it lies on a ridge as strong as the threshold; the rest are ways and membranes, which keep the "
       "solid's topology.";
-  if (!(strongest > 0)) return {told + " No ridge comes near it.", {}};
+  if (!(strongest > 0)) return {told + " None is an eighth as strong.", {}};
   const std::string lower = base::rounded(std::min(threshold, strongest) / kLowerThreshold, 2);
   return {told + " A threshold of " + lower + " may find more.", {{"threshold", lower}}};
 }

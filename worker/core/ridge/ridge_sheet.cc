@@ -186,7 +186,7 @@ class SheetMaker {
     sheet.fragments = chosen_.fragments;
     sheet.limbs = chosen_.limbs + static_cast<std::uint32_t>(sheet.filled.limbs.size());
     sheet.opened = left.opened;
-    sheet.strongest = strongest();
+    sheet.strongest = strongest_;
     static_cast<SkeletonMesh&>(sheet) = placed(left.cells);
     sheet.unreached = unreached_ends(solid_, lattice_, chosen_.left_out, mesh_places(solid_, lattice_, sheet),
                                      options_.context);
@@ -210,17 +210,17 @@ class SheetMaker {
     for (const RidgeCrossing& crossing : crossings) {
       edges_.push_back(crossing.edge);
       strengths_.push_back(crossing.at.strength);
+      look_at(crossing.at);
     }
+    for (const RidgeCurve& curve : curves_)
+      std::ranges::for_each(curve.vertices, [&](const auto& vertex) { look_at(vertex); });
     cells_ = edge_cells(lattice_, basis_.complex, parts_, edges_);
     surface_ = contour(lattice_, parts_, cells_, crossings, options_.context).vertices;
   }
 
-  double strongest() const {
-    double most = 0;
-    for (const double strength : strengths_) most = std::max(most, strength);
-    for (const RidgeCurve& curve : curves_)
-      for (const SheetVertex& vertex : curve.vertices) most = std::max(most, vertex.strength);
-    return most;
+  // Round places found none, however strong.
+  void look_at(const SheetVertex& vertex) {
+    if (vertex.roundness <= RidgeConstants::max_roundness) strongest_ = std::max(strongest_, vertex.strength);
   }
 
   // What is left of the solid, but for fragments.
@@ -279,6 +279,7 @@ class SheetMaker {
   const Walls walls_;
   std::vector<LatticeEdge> edges_;    // that the surface crosses
   std::vector<double> strengths_;     // there
+  double strongest_ = 0;              // that may found a ridge
   EdgeCells cells_;                   // about them
   std::vector<SheetVertex> surface_;  // per cell
   std::vector<RidgeCurve> curves_;

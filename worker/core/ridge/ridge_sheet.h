@@ -67,7 +67,7 @@ struct RidgeSheet : SkeletonMesh {
   std::uint32_t limbs = 0;              ///< tips of limbs that no ridge reaches, which lines lead to
   std::vector<UnreachedEnd> unreached;  ///< see unreached_ends()
   std::uint32_t opened = 0;             ///< pockets of the ridge, opened; see collapse()
-  /// The greatest strength of a ridge, anchored or not; 0 where none has RidgeConstants::weak_share of the least.
+  /// The greatest strength of what may found a ridge; 0 where none has RidgeConstants::weak_share of the least.
   double strongest = 0;
 };
 

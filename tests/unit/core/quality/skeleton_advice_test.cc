@@ -252,7 +252,7 @@ TEST(LittleRidgeAdvice, SuggestsNoneAboveWhatThereIs) {
   EXPECT_TRUE(suggests(little_ridge_advice(0, 6, 1.5), "threshold", "0.5"));
   const Advice none = little_ridge_advice(0, 6, 0);
   EXPECT_TRUE(none.settings.empty());
-  EXPECT_TRUE(says(none, "No ridge comes near it")) << none.text;
+  EXPECT_TRUE(says(none, "None is an eighth as strong")) << none.text;
   EXPECT_TRUE(is_plain(none));
 }
 
