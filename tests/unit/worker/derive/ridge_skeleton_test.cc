@@ -135,11 +135,12 @@ TEST(DeriveRidge, SaysThatHardlyAnyOfItIsRidge) {
   core::RidgeSheet sheet;
   sheet.vertices.resize(20);
   for (core::SheetVertex& vertex : sheet.vertices) vertex.kind = core::SkeletonKind::kWay;
+  sheet.strongest = 1.5;
   v1::SkeletonQuality quality;
   RidgeOfField::report_ridge(sheet, 6, quality);
   EXPECT_NE(quality.advice().find("none of it lies on a ridge"), std::string::npos) << quality.advice();
   ASSERT_EQ(quality.to_try_size(), 1);
-  EXPECT_EQ(quality.to_try(0).value(), "2");
+  EXPECT_EQ(quality.to_try(0).value(), "0.5");
   sheet.vertices[0].kind = core::SkeletonKind::kRidge;
   sheet.vertices[1].kind = core::SkeletonKind::kCurve;
   v1::SkeletonQuality enough;
