@@ -296,15 +296,21 @@ TEST(LimbHubs, HoldNoMiddleOfALimb) {
   }
 }
 
+// Four fingers, and a wrist of so many vertices, so thick. @return its end.
+std::uint32_t go_out_of_palm(Cube& palm, std::uint32_t joint, int vertices, double thick) {
+  palm.radius.assign(1, 2.2);
+  const std::uint32_t wrist = palm.go(joint, {0, -0.1, 0}, vertices, thick);
+  palm.radius.resize(palm.places.size(), thick);
+  palm.go_out(joint, {{0.1, 0, 0}, {0.06, 0.08, 0}, {-0.06, 0.08, 0}, {-0.1, 0, 0}}, 2.2, 2, 4.2);
+  return wrist;
+}
+
 // A palm, 8 wide and 2 thick, with four fingers, and a forearm as thick as it, along which its ellipsoid would go on and on.
 TEST(LimbHubs, DoNotRunAlongALimb) {
   Cube palm(joined(moved(make_box(8, 8, 2), {0, 8, 0}), moved(make_box(4.6, 8.5, 2), {1.7, 0, 0})));
   const Vec3 middle{4, 12, 1};
   const std::uint32_t joint = palm.add(middle, 2);
-  palm.radius.assign(1, 2.2);
-  const std::uint32_t wrist = palm.go(joint, {0, -0.1, 0}, 100, 1.7);
-  palm.radius.resize(palm.places.size(), 1.7);
-  palm.go_out(joint, {{0.1, 0, 0}, {0.06, 0.08, 0}, {-0.06, 0.08, 0}, {-0.1, 0, 0}}, 2.2, 2, 4.2);
+  const std::uint32_t wrist = go_out_of_palm(palm, joint, 100, 1.7);
   const LimbHubs found = palm.found();
   ASSERT_EQ(found.hubs.size(), 1U);
   EXPECT_EQ(found.of[wrist], kNone);
@@ -315,10 +321,7 @@ TEST(LimbHubs, DoNotRunAlongALimb) {
 TEST(LimbHubs, HoldNoWholeLimb) {
   Cube palm(joined(moved(make_box(8, 8, 2), {0, 2.4, 0}), moved(make_box(4, 2.5, 2), {2, 0, 0})));
   const std::uint32_t joint = palm.add({4, 6.4, 1}, 2);
-  palm.radius.assign(1, 2.2);
-  const std::uint32_t wrist = palm.go(joint, {0, -0.1, 0}, 55, 1.6);
-  palm.radius.resize(palm.places.size(), 1.6);
-  palm.go_out(joint, {{0.1, 0, 0}, {0.06, 0.08, 0}, {-0.06, 0.08, 0}, {-0.1, 0, 0}}, 2.2, 2, 4.2);
+  const std::uint32_t wrist = go_out_of_palm(palm, joint, 55, 1.6);
   const LimbHubs found = palm.found();
   ASSERT_EQ(found.hubs.size(), 1U);
   for (std::uint32_t n = 0; n < 10; ++n) EXPECT_EQ(found.of[wrist - n], kNone) << n;
